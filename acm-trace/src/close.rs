@@ -93,7 +93,7 @@ pub fn close(
                 .into(),
         );
     }
-    let begun = traced.befores.iter().flatten().count();
+    let begun = traced.histories.iter().flatten().count();
     if begun > 0 && !effects.is_empty() {
         cautions.push(format!(
             "{begun} development trials are predicted from what their actuators did before the first sample, which their start tells. The saved \
@@ -151,7 +151,7 @@ fn joined_series(prepared: &Prepared) -> Vec<Series> {
 
 /// Returns what was before each trial, of those of which it is known.
 fn ways(traced: &Traced) -> Vec<BeforeTrial> {
-    let known = traced.problem.series.iter().zip(&traced.befores);
+    let known = traced.problem.series.iter().zip(&traced.histories);
     let told = known.filter_map(|(series, before)| Some((series.name.clone(), before.as_ref()?)));
     told.map(|(trial, before)| match before {
         Before::Rest(values) => BeforeTrial { trial, form: BeforeForm::Rest, values: values.clone() },

@@ -14,7 +14,7 @@ use crate::fit::gram::left_out;
 use crate::fit::offsets::{Offsets, offsets};
 use crate::fit::problem::Problem;
 use crate::fit::state::State;
-use crate::fit::unrecorded::past::{befores, common};
+use crate::fit::unrecorded::past::{common, histories};
 use crate::prepared::Prepared;
 use crate::search::confidence::{Chosen, Kept, kept};
 use crate::search::criteria::Criteria;
@@ -56,7 +56,7 @@ pub struct Traced<'a> {
     /// Model with effects, as it predicts.
     pub after: Assembled,
     /// What the actuators did before each trial; empty where that is of none.
-    pub befores: Vec<Option<Before>>,
+    pub histories: Vec<Option<Before>>,
     /// What they did before most of the trials, as far as one for all says it.
     pub common: Option<Before>,
 }
@@ -122,7 +122,7 @@ struct Concluded<'a> {
     plain: Problem<'a>,
     problem: Problem<'a>,
     about: Option<Problem<'a>>,
-    befores: Vec<Option<Before>>,
+    histories: Vec<Option<Before>>,
 }
 
 /// How the trials of a search are taken between and before their samples.
@@ -131,7 +131,7 @@ struct Recorded {
     /// Actuators that are held between samples.
     held: Vec<usize>,
     /// What the actuators did before each trial, where that is known; empty where it is of none.
-    befores: Vec<Option<Before>>,
+    histories: Vec<Option<Before>>,
     /// Number of searches that began otherwise.
     rounds: usize,
 }
@@ -148,13 +148,22 @@ impl Recorded {
         };
         let quick = quickened(prepared, &held);
         let begun = |series: &[Series]| -> Vec<Series> {
-            let before = |s: usize| self.befores.get(s).and_then(Option::as_ref);
+            let before = |s: usize| self.histories.get(s).and_then(Option::as_ref);
             let of = |(s, series): (usize, &Series)| before(s).map_or_else(|| series.clone(), |b| series.begun(b));
             series.iter().enumerate().map(of).collect()
         };
         let problem = problem(prepared, &begun(&held)).with_offsets(share);
         let quick = quick.map_or_else(|| problem.clone(), |q| baselines::problem(prepared, &begun(&q)));
         [problem, quick.with_offsets(share)]
+    }
+
+    /// Returns these trials from their first samples on; `problem` has them as they are taken.
+    fn plain<'a>(&self, prepared: &'a Prepared, joined: &[Series], problem: &Problem<'a>) -> Problem<'a> {
+        if self.histories.is_empty() {
+            return problem.clone();
+        }
+        let [plain, _] = Self { histories: vec![], ..self.clone() }.trials(prepared, joined, problem.offset_share);
+        plain
     }
 }
 
@@ -170,12 +179,15 @@ fn concluded<'a>(
 ) -> Concluded<'a> {
     let mut others = vec![];
     if recorded.rounds < ROUNDS && !selected.last.effects.is_empty() {
-        let plain = Recorded { befores: vec![], ..recorded.clone() }.trials(prepared, joined, 0.0);
+        let plain = recorded.plain(prepared, joined, search.problem);
         let model = Assembled::new(search.problem, &selected.last).map(|assembled| assembled.model());
-        let befores = model.and_then(|model| befores(&plain[0], &selected.last, &model));
-        others.extend(befores.map(|befores| {
-            let behind = befores.iter().flatten().count();
-            (format!("start of {behind} trials"), Recorded { befores, rounds: recorded.rounds + 1, ..recorded.clone() })
+        let histories = model.and_then(|model| histories(&plain, &selected.last, &model));
+        others.extend(histories.map(|histories| {
+            let behind = histories.iter().flatten().count();
+            (
+                format!("start of {behind} trials"),
+                Recorded { histories, rounds: recorded.rounds + 1, ..recorded.clone() },
+            )
         }));
     }
     let held = stepwise(&prepared.case);
@@ -192,10 +204,10 @@ fn concluded<'a>(
             return concluded(prepared, joined, options, other, again, found, tell);
         }
     }
-    let [plain, _] = Recorded { befores: vec![], ..recorded.clone() }.trials(prepared, joined, 0.0);
+    let plain = recorded.plain(prepared, joined, search.problem);
     let problem = search.problem.clone();
     let (kept, about) = named(search, selected, &problem, tell);
-    Concluded { kept, plain, problem, about, befores: recorded.befores }
+    Concluded { kept, plain, problem, about, histories: recorded.histories }
 }
 
 /// Names the actuators that are held between samples.
@@ -249,7 +261,7 @@ fn quickened(prepared: &Prepared, joined: &[Series]) -> Option<Vec<Series>> {
 
 fn finished<'a>(
     prepared: &Prepared,
-    Concluded { kept, plain, problem: recorded, about, befores }: Concluded<'a>,
+    Concluded { kept, plain, problem: recorded, about, histories }: Concluded<'a>,
     (mut steps, baselines): (Vec<Step>, [Response; 3]),
     criteria: &Criteria,
 ) -> Traced<'a> {
@@ -279,7 +291,7 @@ fn finished<'a>(
         chosen.clear();
         Assembled::unchanged(&problem, &baselines[simplest])
     });
-    let common = common(&plain, &last, &after.model(), &befores);
+    let common = common(&plain, &last, &after.model(), &histories);
     let noise = noise(prepared, &problem, &last);
     let offsets = offsets_left(&problem.with_offsets(0.0), &last);
     let baselines = baselines.map(|response| baselines::without_effects(prepared, response));
@@ -298,7 +310,7 @@ fn finished<'a>(
         baselines,
         after,
         common,
-        befores,
+        histories,
     }
 }
 

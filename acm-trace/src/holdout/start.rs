@@ -1,6 +1,6 @@
 //! Unknown state of a held-out trial at its start, told by its warm-up.
 //!
-//! | form | what is told |
+//! | form | what is estimated |
 //! | --- | --- |
 //! | fading | each mode of memory τ in each output, e^{−t/τ} or swinging: what any lag forgets, whatever it is |
 //! | rest | a constant at which each actuator rested before the first sample |

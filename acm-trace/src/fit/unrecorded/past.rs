@@ -162,7 +162,7 @@ fn past<'a>(plain: &'a Problem, state: &State, model: &'a AugmentedModel, s: usi
 
 /// Returns what the actuators did before each trial of `plain`, where a model that was fitted to these trials prefers that to beginning at
 /// the first sample; none where it does in no trial.
-pub fn befores(plain: &Problem, state: &State, model: &AugmentedModel) -> Option<Vec<Option<Before>>> {
+pub fn histories(plain: &Problem, state: &State, model: &AugmentedModel) -> Option<Vec<Option<Before>>> {
     let of = |s: usize| -> Option<Before> {
         let past = past(plain, state, model, s)?;
         let forms: [Form; 2] = [Before::Turn, Before::Rest];
@@ -173,15 +173,15 @@ pub fn befores(plain: &Problem, state: &State, model: &AugmentedModel) -> Option
         let (least, before) = if prefers(turn.0, rest.0, 1) { rest } else { turn };
         prefers(past.left(), least, before.values().len()).then_some(before)
     };
-    let befores: Vec<Option<Before>> = (0..plain.series.len()).into_par_iter().map(of).collect();
-    befores.iter().any(Option::is_some).then_some(befores)
+    let histories: Vec<Option<Before>> = (0..plain.series.len()).into_par_iter().map(of).collect();
+    histories.iter().any(Option::is_some).then_some(histories)
 }
 
 /// Returns what the actuators did before most trials, of those that were found the one that all trials together prefer; none where most
 /// trials begin at their first sample.
-pub fn common(plain: &Problem, state: &State, model: &AugmentedModel, befores: &[Option<Before>]) -> Option<Before> {
-    let known: Vec<&Before> = befores.iter().flatten().collect();
-    if 2 * known.len() <= befores.len() {
+pub fn common(plain: &Problem, state: &State, model: &AugmentedModel, histories: &[Option<Before>]) -> Option<Before> {
+    let known: Vec<&Before> = histories.iter().flatten().collect();
+    if 2 * known.len() <= histories.len() {
         return None;
     }
     let left = |before: &Before| -> f64 {
