@@ -24,10 +24,13 @@ use acm_core::effects::Mode;
 pub(super) enum Tested {
     /// It is no improvement, or stands for something else.
     Failed,
-    /// It gains in too few blocks, or no more than the best of all candidates does by chance. What it leaves may still hold another effect.
+    /// It gains in too few blocks, no more than the best of all candidates does by chance, or no more than a static map. What it leaves
+    /// may still hold another effect.
     Unproven {
         /// Relative reduction of the cross-validated mean square.
         gain: f64,
+        /// Whether a static map predicts as well.
+        is_imitated: bool,
     },
     /// It is accepted.
     Passed,
@@ -50,17 +53,20 @@ impl Search<'_, '_> {
         let improves = candidate.score < self.score(losses, state)
             && !rests_on_bound(candidate, self.problem.rig)
             && !self.cancels(&candidate.state)
-            && !self.is_static_misfit(state, candidate)
             && !self.is_nominal_misfit(state, losses, candidate)
             && !self.is_noise_of_encoders(state, candidate)
             && self.is_better_as_saved((candidate.score, &candidate.state), (self.score(losses, state), state));
-        let everywhere = t > least_t(losses.len(), self.criteria.level);
-        let by_chance = (improves && everywhere).then(|| self.threshold(state, candidate));
+        let is_imitated = improves && self.is_static_misfit(state, candidate);
+        let exceeds = |level: f64| t > least_t(losses.len(), level);
+        let is_tried = improves && !is_imitated && exceeds(self.criteria.few);
+        let by_chance = is_tried.then(|| self.threshold(state, candidate));
+        // A gain that is far above chance may be in few blocks.
+        let least =
+            |by_chance: f64| if exceeds(self.criteria.level) { by_chance } else { self.criteria.clear * by_chance };
         let tested = match by_chance {
-            None if improves => Tested::Unproven { gain },
-            None => Tested::Failed,
-            Some(by_chance) if gain > by_chance => Tested::Passed,
-            Some(_) => Tested::Unproven { gain },
+            Some(by_chance) if gain > least(by_chance) => Tested::Passed,
+            _ if improves => Tested::Unproven { gain, is_imitated },
+            _ => Tested::Failed,
         };
         if note {
             let candidates = tried.iter().take(LISTED).map(|t| (t.label.clone(), self.rms(&t.losses))).collect();
@@ -139,7 +145,7 @@ impl Search<'_, '_> {
     }
 
     /// Returns the sum of squares of a state beside the most flexible static map.
-    fn with_map(&mut self, state: &State) -> f64 {
+    pub(super) fn with_map(&mut self, state: &State) -> f64 {
         let problem = self.problem;
         *self.rivals.entry(key(state, problem)).or_insert_with(|| nuisance::most_flexible(problem, state))
     }

@@ -21,6 +21,10 @@ pub struct Criteria {
     pub negligible: f64,
     /// Probability of so large a mean gain over blocks where there is none.
     pub level: f64,
+    /// The same for a gain that is far above chance.
+    pub few: f64,
+    /// Multiple of the largest gain by chance from which on a gain is far above it.
+    pub clear: f64,
     /// Probability that any candidate is accepted where none acts.
     pub family_wise: f64,
     /// Number of surrogates that the quantile of the largest gain is taken from.
@@ -55,6 +59,8 @@ impl Default for Criteria {
             minor: 0.3,
             negligible: 1e-4,
             level: 0.01,
+            few: 0.05,
+            clear: 5.0,
             family_wise: 0.01,
             surrogates: 24,
             beam: 3,

@@ -27,15 +27,19 @@ pub struct Trials<'p, 'a> {
     pub quick: &'p Problem<'a>,
 }
 
-/// A first effect that chance may explain.
+/// An effect that chance or a static map may explain.
 #[derive(Debug, Clone)]
 pub struct Unproven {
+    /// Its name, with carrier and signal.
+    pub label: String,
     /// The set without it.
     pub without: State,
     /// Losses of that set.
     pub losses: Losses,
     /// Relative reduction of the cross-validated mean square by the effect.
     pub gain: f64,
+    /// Whether a static map predicts as well.
+    pub is_imitated: bool,
 }
 
 /// State of a search; see the head of this file.
@@ -58,7 +62,7 @@ pub struct Search<'p, 'a> {
     pub(super) rivals: HashMap<Key, f64>,
     pub(super) smoothed: HashMap<Key, f64>,
     pub(super) known: HashMap<Key, Scored>,
-    /// Sets of one effect that chance may explain.
+    /// Sets whose last effect chance or a static map may explain.
     pub(super) unproven: HashMap<Key, Unproven>,
     pub(super) steps: Vec<Step>,
 }

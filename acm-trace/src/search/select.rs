@@ -3,6 +3,7 @@
 use acm_core::rig::Rig;
 
 use super::accept::{Tested, least_t, paired_t, rests_on_bound};
+use super::candidates::new_in;
 use super::nuisance;
 use super::scan::Losses;
 use super::scored::{LEAST_FALL, key};
@@ -91,8 +92,9 @@ impl Search<'_, '_> {
                 match (self.tested(state, losses, candidate, &tried, rank == 0), &unproven) {
                     (Tested::Passed, None) => is_proven = true,
                     (Tested::Passed, Some(first)) if self.proves(first, candidate) => (),
-                    (Tested::Unproven { gain }, None) if state.effects.is_empty() => {
-                        let first = Unproven { without: state.clone(), losses: losses.clone(), gain };
+                    (Tested::Unproven { gain, is_imitated }, None) if is_imitated || state.effects.is_empty() => {
+                        let (label, without, losses) = (candidate.label.clone(), state.clone(), losses.clone());
+                        let first = Unproven { label, without, losses, gain, is_imitated };
                         self.unproven.insert(key(&candidate.state, self.problem), first);
                     }
                     _ => continue,
@@ -117,12 +119,21 @@ impl Search<'_, '_> {
         next
     }
 
-    /// Returns whether a first effect is no chance beside a second: both together gain over blocks, and it gains more than the best
-    /// candidate does by chance where both are.
-    fn proves(&self, first: &Unproven, both: &Tried) -> bool {
+    /// Returns whether an effect is no chance beside a second, and no misfit of the nominal form: both together gain over blocks, it gains
+    /// more than the best candidate does by chance where both are, and a static map beside the second predicts worse.
+    fn proves(&mut self, first: &Unproven, both: &Tried) -> bool {
         let together = paired_t(&first.losses, &both.losses);
         together > least_t(first.losses.len(), self.criteria.level)
+            && (!first.is_imitated || self.is_needed_beside_a_map(&first.label, both))
             && first.gain > self.by_chance(&first.without, &both.state)
+    }
+
+    /// Returns whether the others of a set predict worse beside the most flexible static map than all do without it.
+    fn is_needed_beside_a_map(&mut self, label: &str, all: &Tried) -> bool {
+        let Some(i) = new_in(label, &all.state, self.problem.rig) else { return false };
+        let (_, others, _) = self.settled(&all.state.without(i));
+        let map = self.with_map(&others);
+        all.score < self.score_of(map, &others)
     }
 
     /// Compares the results of two searches of the same outputs, accepted where J falls.
