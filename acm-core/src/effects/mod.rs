@@ -51,6 +51,7 @@ pub const ALL: &[&dyn Effect] = &[
     &actuation::saturation::Saturation,
     &actuation::dead_zone::DeadZone,
     &actuation::input_disturbance::InputDisturbance,
+    &actuation::input_gain::InputGain,
     &actuation::lag::rate_limit::RateLimit,
     &actuation::coupling::Coupling,
     &actuation::hysteresis::backlash::Backlash,

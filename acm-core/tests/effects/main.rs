@@ -48,6 +48,7 @@ const PROMISED: [&str; 50] = [
     "context_gain",
     "context_lag",
     "input_disturbance",
+    "input_gain",
     "second_order_lag",
     "rate_limit",
     "dead_zone",

@@ -98,7 +98,7 @@ const FAMILIES: &[Family] = &[
         shows: "track a marker on the base: it shows the frame whatever the arm does",
     },
     Family {
-        names: &["context_term", "context_gain", "context_lag", "input_disturbance"],
+        names: &["context_term", "context_gain", "context_lag", "input_disturbance", "input_gain"],
         within: "step the context signals one at a time, with the actuators at rest and then far from it: a gain shows only far from rest, \
                  a lag follows each step late, and a disturbance of the input as late as the actuators' own steps",
         shows: "hold the actuators at rest and move the context signal alone through its range, up and down",

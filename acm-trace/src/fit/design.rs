@@ -137,7 +137,18 @@ pub fn inputs(problem: &Problem, state: &State, s: usize) -> Vec<Vec<f64>> {
 /// Caches what states that begin as this one share with it: the actuators after the first input effects, and the
 /// columns of the nominal form.
 pub fn keep(problem: &Problem, state: &State) {
+    keep_inputs(problem, state);
     let basis = Basis::of(problem, state);
+    (0..problem.series.len()).into_par_iter().for_each(|s| {
+        let unrecorded = Unrecorded::new(problem, state, s);
+        let (x, base) = nominal(problem, state, basis.as_ref(), s, &unrecorded);
+        let both = [base.as_slice(), x.as_slice()].concat();
+        problem.columns.put(nominal_key(problem, state, s, &unrecorded), both);
+    });
+}
+
+/// Caches the actuators after each of the first input effects.
+pub fn keep_inputs(problem: &Problem, state: &State) {
     (0..problem.series.len()).into_par_iter().for_each(|s| {
         let record = record(problem, state, s);
         let chain = acting(state, &problem.series[s], Part::Input);
@@ -146,10 +157,6 @@ pub fn keep(problem: &Problem, state: &State) {
             placed.instance.act(&placed.theta, &record, &mut q);
             problem.columns.put(Key::together(Kind::Courses, s, &chain[..=done], &[state.clock]), q.concat());
         }
-        let unrecorded = Unrecorded::new(problem, state, s);
-        let (x, base) = nominal(problem, state, basis.as_ref(), s, &unrecorded);
-        let both = [base.as_slice(), x.as_slice()].concat();
-        problem.columns.put(nominal_key(problem, state, s, &unrecorded), both);
     });
 }
 

@@ -16,7 +16,7 @@ use acm_core::levenberg_marquardt::{Bounds, Options, fit};
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 
-use super::design::left;
+use super::design::{keep_inputs, left};
 use super::problem::Problem;
 use super::state::{Placed, State};
 
@@ -25,8 +25,9 @@ pub use super::projected::{Projected, project};
 /// Difference that slopes are taken from, in u; smaller for a resonance, and for an effect that is periodic in an actuator.
 const STEP: (f64, f64) = (0.02, 0.002);
 
-/// Steps of a resonance for each of another effect: its valley is narrow and bent.
-const RINGING: usize = 4;
+/// Steps of a resonance for each of another effect: its valley is narrow and bent. The second number is for one that was refined before
+/// another effect joined it.
+const RINGING: (usize, usize) = (4, 2);
 
 /// Initial radius of the trust region, in u.
 const RADIUS: f64 = 0.7;
@@ -162,6 +163,8 @@ impl Residuals for ProjectedResidual<'_, '_> {
     }
 
     fn slopes(&self, theta: &[f64], _: Range<usize>, out: &mut [f64], slopes: &mut DMatrix<f64>) {
+        // What acts before the effect that is moved stays as it is.
+        keep_inputs(self.problem, &put(self.state, &self.coordinates, theta));
         let here = self.at(theta);
         let moved: Vec<(Vec<f64>, f64)> = (0..self.coordinates.len())
             .into_par_iter()
@@ -199,15 +202,24 @@ pub fn slopes(problem: &Problem, state: &State, beta: &DMatrix<f64>) -> Vec<DMat
     all.into_iter().filter(|z| z.iter().all(|z| z.is_finite()) && z.amax() > 0.0).collect()
 }
 
-/// Returns the state with its nonlinear parameters refined, `iterations` steps at most, and [`RINGING`] times as many with a resonance.
+/// Returns the largest number of steps of a state, more where an effect is a resonance; with `new` all others were refined without it.
+pub fn steps(state: &State, new: Option<usize>, iterations: usize) -> usize {
+    let rings = |placed: &Placed| placed.instance.effect().traits().is_resonance;
+    let factor = match new {
+        _ if !state.effects.iter().any(|placed| rings(placed)) => 1,
+        Some(i) if !rings(&state.effects[i]) => RINGING.1,
+        _ => RINGING.0,
+    };
+    factor * iterations
+}
+
+/// Returns the state with its nonlinear parameters refined, `iterations` steps at most.
 pub fn refine(problem: &Problem, state: &State, iterations: usize) -> State {
     let coordinates: Vec<Coordinate> =
         places(state).into_iter().map(|place| Coordinate::new(problem, state, place)).collect();
     if coordinates.is_empty() || iterations == 0 {
         return state.clone();
     }
-    let rings = state.effects.iter().any(|placed| placed.instance.effect().traits().is_resonance);
-    let iterations = if rings { RINGING * iterations } else { iterations };
     let Some(first) = project(problem, state) else { return state.clone() };
     let bounds = Bounds {
         lower: coordinates.iter().map(|c| c.at(c.lower)).collect(),

@@ -9,7 +9,7 @@ use super::scan::{Losses, Scanned, cross_validate, scan, sum};
 use super::scored::{Scored, Search, key};
 use crate::fit::design::keep;
 use crate::fit::projected::project;
-use crate::fit::refine::refine;
+use crate::fit::refine::{refine, steps};
 use crate::fit::state::State;
 
 pub use super::tried::{Expansion, Tried};
@@ -27,7 +27,7 @@ impl Search<'_, '_> {
         if let Some(known) = self.known.get(&key) {
             return known.clone();
         }
-        let refined = refine(self.quick, state, ITERATIONS.1);
+        let refined = refine(self.quick, state, steps(state, None, ITERATIONS.1));
         let (chosen, losses) = nuisance::choose(self.problem, &refined, self.criteria);
         let settled = (self.score(&losses, &chosen), chosen, losses);
         self.known.insert(key, settled.clone());
@@ -36,7 +36,7 @@ impl Search<'_, '_> {
 
     /// Returns a set with its values refined on all samples, where that predicts better, also as it is saved.
     pub(super) fn polished(&self, last: Scored) -> Scored {
-        let refined = refine(self.problem, &last.1, POLISHED);
+        let refined = refine(self.problem, &last.1, steps(&last.1, None, POLISHED));
         let (chosen, losses) = nuisance::choose(self.problem, &refined, self.criteria);
         let score = self.score(&losses, &chosen);
         let is_better = score < last.0 && self.is_better_as_saved((score, &chosen), (last.0, &last.1));
@@ -107,10 +107,11 @@ impl Search<'_, '_> {
 
     /// Returns the refined state, with the new effect in the calibration trials too where that predicts better.
     fn scoped(&self, one: &Tried) -> State {
-        let refined = refine(self.quick, &one.state, ITERATIONS.0);
         let new = new_in(&one.label, &one.state, self.problem.rig);
+        let iterations = steps(&one.state, new, ITERATIONS.0);
+        let refined = refine(self.quick, &one.state, iterations);
         let Some(new) = new.filter(|_| self.problem.has_calibration()) else { return refined };
-        let rescoped = refine(self.quick, &one.state.rescoped(new), ITERATIONS.0);
+        let rescoped = refine(self.quick, &one.state.rescoped(new), iterations);
         let loss = |state: &State| cross_validate(self.quick, state).map_or(f64::INFINITY, |losses| sum(&losses));
         if loss(&rescoped) < loss(&refined) { rescoped } else { refined }
     }

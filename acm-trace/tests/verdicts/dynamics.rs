@@ -59,6 +59,25 @@ fn a_coil_moves_in_a_field() {
     assert!(is_near(&finding, NOISE), "{}", told(&finding));
 }
 
+/// A motor's speed follows the product of its duty and its supply, 24 V and 3 V about it, after 0.6 s.
+#[test]
+fn a_supply_sags() {
+    let bench = straight(1, vec![["supply", "V"]]);
+    let finding = traced(&bench, |name, k| {
+        let mut drive = bench.drive(k, 400, 65, &[0.0]);
+        let sag = Motion::new(&mut random(650 + k as u64));
+        drive.contexts[0] = drive.time.iter().map(|t| 24.0 + 3.0 * sag.at(*t)).collect();
+        let pushed = drive.motion[0].with(3.0 / 24.0, &drive.motion[0].times(&sag));
+        let speed = lagged(&drive.time, &pushed, 0.6);
+        bench.trial(name, &drive, &[speed])
+    });
+    assert_eq!(names(&finding), ["actuator_lag", "input_gain"], "{}", told(&finding));
+    // Relative to the gain in the middle of the supply's range.
+    let gain = parameter(effect(&finding, "input_gain"), "gain");
+    assert!((gain.value * 24.0 - 1.0).abs() < 0.05, "{gain:?}");
+    assert!(is_near(&finding, NOISE), "{}", told(&finding));
+}
+
 /// Three servos that follow after 0.2, 0.5 and 1.0 s.
 #[test]
 fn servos_differ() {

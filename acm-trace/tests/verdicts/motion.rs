@@ -33,6 +33,15 @@ impl Motion {
         Self(self.0.iter().copied().chain(other).collect())
     }
 
+    /// The product: sin α sin β = (cos(α − β) − cos(α + β))/2.
+    pub fn times(&self, other: &Self) -> Self {
+        let product = |[a, f, phase]: [f64; 3], [b, g, other]: [f64; 3]| {
+            let size = 0.5 * a * b;
+            [[size, f - g, phase - other + 0.25 * TAU], [-size, f + g, phase + other + 0.25 * TAU]]
+        };
+        Self(self.0.iter().flat_map(|own| other.0.iter().flat_map(move |their| product(*own, *their))).collect())
+    }
+
     pub fn at(&self, time: f64) -> f64 {
         self.0.iter().map(|[a, f, phase]| a * (TAU * f * time + phase).sin()).sum()
     }

@@ -10,6 +10,7 @@ pub(super) mod encoder_periodic;
 pub(super) mod gain_drift;
 pub(super) mod hysteresis;
 pub(super) mod input_disturbance;
+pub(super) mod input_gain;
 pub(super) mod input_nonlinearity;
 pub(super) mod lag;
 pub(super) mod saturation;

@@ -63,11 +63,16 @@ impl Effect for ContextGain {
     }
 
     fn proceed(&self, carrier: Carrier, values: Values, record: &Record, _: &mut Memory, columns: &mut [Vec<f64>]) {
-        let Some(signal) = carrying::signal(record, carrier) else { return };
-        for column in columns {
-            for (t, (y, c)) in column.iter_mut().zip(signal).enumerate() {
-                *y += *y * values.at(0, t) * (c - values.at(1, t));
-            }
+        multiply(carrier, values, record, columns);
+    }
+}
+
+/// Multiplies every column by 1 + k (c − c_0).
+pub fn multiply(carrier: Carrier, values: Values, record: &Record, columns: &mut [Vec<f64>]) {
+    let Some(signal) = carrying::signal(record, carrier) else { return };
+    for column in columns {
+        for (t, (y, c)) in column.iter_mut().zip(signal).enumerate() {
+            *y += *y * values.at(0, t) * (c - values.at(1, t));
         }
     }
 }

@@ -222,9 +222,9 @@ pub fn write(asked: &Asked) -> Option<Body> {
                 "x[j] += v[j] * d;",
             )
         },
-        "context_gain" => {
+        "context_gain" | "input_gain" => {
             let signal = carrier(asked)?;
-            each(asked, "y'_m = y_m (1 + k (c - c_0))", &format!("x[j] += x[j] * v[0] * (in[{signal}] - v[1]);"))
+            each(asked, "x'_j = x_j (1 + k (c - c_0))", &format!("x[j] += x[j] * v[0] * (in[{signal}] - v[1]);"))
         }
         "joint_gravity" => Body {
             needs: vec!["sin_cos_d"],

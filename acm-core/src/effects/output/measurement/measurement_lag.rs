@@ -34,7 +34,7 @@ impl Effect for MeasurementLag {
     }
 
     fn traits(&self) -> Traits {
-        Traits { is_rare: true, is_output_filter: true, ..Traits::default() }
+        Traits { is_rare: true, is_output_filter: true, repeats: true, ..Traits::default() }
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {
