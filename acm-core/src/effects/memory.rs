@@ -1,21 +1,19 @@
 //! What effects remember: operators on irregular time stamps, and where an effect keeps them between two pieces of a trial.
 //!
 //! Signals are straight between samples. Each operator is a small state that takes one sample after the other, and exact at
-//! the samples: one more sample on a straight piece changes nothing at the others. Two lags that are not linear have no closed
-//! form ([`StiffLag`], [`BentLag`]) and come as close as their order; derivatives look ahead ([`Derivatives`], [`Slopes`]).
+//! the samples: one more sample on a straight piece changes nothing at the others. Three lags that are not linear have no closed
+//! form ([`StiffLag`], [`BentLag`], [`RootLag`]) and come as close as their order; derivatives look ahead ([`Derivatives`], [`Slopes`]).
 
-mod asymmetric_lag;
-mod bent_lag;
 mod beside;
 mod delay;
 mod derivatives;
+mod first_order;
 mod hysteresis;
 mod lag;
 mod last;
 mod rate_limit;
 mod second_order_lag;
 mod slopes;
-mod stick_lag;
 mod stiff_lag;
 mod substeps;
 #[cfg(test)]
@@ -23,18 +21,16 @@ mod tests;
 
 use std::{any::Any, fmt::Debug};
 
-pub use asymmetric_lag::{AsymmetricLag, Decays};
-pub use bent_lag::BentLag;
 pub use beside::pass;
 pub use delay::DelayLine;
 pub use derivatives::{Derivative, Derivatives};
+pub use first_order::{AsymmetricLag, BentLag, Decays, RootLag, StickLag};
 pub use hysteresis::{BoucWen, LuGre, Play, play};
 pub use lag::{Decay, Lag, lag};
 pub use last::Last;
 pub use rate_limit::RateLimit;
 pub use second_order_lag::{SecondOrderLag, Swing};
 pub use slopes::Slopes;
-pub use stick_lag::StickLag;
 pub use stiff_lag::{Friction, Spring, StiffLag};
 
 /// An operator, or whatever else an effect keeps: its default is rest, before any sample.

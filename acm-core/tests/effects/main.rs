@@ -15,7 +15,7 @@ use acm_core::rig::Rig;
 use rigs::{Case, all, cases};
 
 /// Names that other programs read.
-const PROMISED: [&str; 50] = [
+const PROMISED: [&str; 52] = [
     "dead_time",
     "actuator_lag",
     "backlash",
@@ -63,6 +63,7 @@ const PROMISED: [&str; 50] = [
     "nonlinear_stiffness",
     "coulomb_damping",
     "state_dependent_lag",
+    "outflow",
     "friction_lag",
     "input_nonlinearity",
     "lugre_friction",
@@ -81,7 +82,7 @@ fn looks_ahead(case: &Case, values: &[f64]) -> usize {
 }
 
 /// Effects whose equations have no closed solution between two samples.
-const APPROXIMATE: [&str; 3] = ["nonlinear_stiffness", "coulomb_damping", "state_dependent_lag"];
+const APPROXIMATE: [&str; 4] = ["nonlinear_stiffness", "coulomb_damping", "state_dependent_lag", "outflow"];
 
 fn largest(columns: &[Vec<f64>]) -> f64 {
     columns.iter().flatten().fold(0.0, |most, x| x.abs().max(most))

@@ -45,6 +45,8 @@ criteria!(
     minor,
     negligible,
     level,
+    few,
+    clear,
     family_wise,
     surrogates,
     beam,

@@ -31,6 +31,7 @@ const FRAGMENTS: &[(&str, &str, &[&str])] = &[
     ("stick_lag", include_str!("runtime/stick_lag.c"), &["relax"]),
     ("asymmetric_lag", include_str!("runtime/asymmetric_lag.c"), &["relax", "log1p_d"]),
     ("bent_lag", include_str!("runtime/bent_lag.c"), &["relax"]),
+    ("root_lag", include_str!("runtime/root_lag.c"), &["relax", "sqrt_d"]),
     ("bouc_wen", include_str!("runtime/bouc_wen.c"), &["expm1_d", "log1p_d"]),
     ("lugre", include_str!("runtime/lugre.c"), &["exp_d", "expm1_d"]),
     ("slope", include_str!("runtime/slope.c"), &[]),

@@ -18,6 +18,7 @@ const FAMILIES: &[Family] = &[
             "nonlinear_stiffness",
             "coulomb_damping",
             "state_dependent_lag",
+            "outflow",
             "friction_lag",
             "asymmetric_lag",
             "viscous_slip",

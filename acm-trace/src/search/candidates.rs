@@ -8,9 +8,9 @@ use acm_core::effects::instance::Instance;
 
 use super::criteria::Criteria;
 use crate::fit::problem::Problem;
-use crate::fit::state::{Part, State, part};
+use crate::fit::state::{Part, Placed, State, part};
 use candidate::{candidate, sloped};
-use replaced::{apart, bowed, in_place_of, is_refined_alike};
+use replaced::{apart, bowed, in_a_row, in_place_of, is_refined_alike};
 
 pub use candidate::{Candidate, new_in};
 pub use replaced::{plainer, refinements, steadied};
@@ -45,8 +45,9 @@ pub fn candidates(problem: &Problem, state: &State, library: &[Instance], clock:
         let most = if new.effect().traits().repeats { REPEATED } else { 1 };
         match refined {
             None if same < most => all.extend(candidate(problem, state, new, guesses(problem, new))),
-            Some(simple) if same == 0 => {
-                let other = || state.effects.iter().position(|placed| is_refined_alike(&placed.instance, new));
+            Some(simple) if same < most => {
+                let is_other = |placed: &Placed| same == 0 && is_refined_alike(&placed.instance, new);
+                let other = || state.effects.iter().position(|placed| is_other(placed));
                 all.extend(find(simple).or_else(other).into_iter().flat_map(|i| in_place_of(problem, state, i, new)));
             }
             _ => (),
@@ -61,6 +62,7 @@ pub fn candidates(problem: &Problem, state: &State, library: &[Instance], clock:
         }
     }
     all.extend((0..state.effects.len()).filter_map(|i| apart(problem, state, i, library)));
+    all.extend((0..state.effects.len()).flat_map(|i| in_a_row(problem, state, i, library)));
     all.extend((0..state.effects.len()).filter_map(|i| bowed(problem, state, i)).flatten());
     if clock && state.clock == 0.0 && !state.effects.iter().any(|e| e.instance.effect().name() == "dead_time") {
         all.push(clock_candidate(problem, state));
@@ -152,7 +154,7 @@ fn clock_candidate(problem: &Problem, state: &State) -> Candidate {
 /// for rare effects where a common one does as well, for a dependence on a signal, and a little for each parameter that
 /// the outputs are not linear in.
 pub fn price(problem: &Problem, state: &State, criteria: &Criteria) -> f64 {
-    let of = |placed: &crate::fit::state::Placed| {
+    let of = |placed: &Placed| {
         let traits = placed.instance.effect().traits();
         let instance = &placed.instance;
         let lines = usize::from(instance.context().is_some()) + usize::from(instance.is_bowed());

@@ -16,6 +16,7 @@
 use crate::effects::output::carrying;
 use crate::effects::output::context_gain::{self, ContextGain};
 use crate::effects::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values};
+use crate::rig::Signal;
 
 /// See the head of this file.
 pub struct InputGain;
@@ -42,7 +43,8 @@ impl Effect for InputGain {
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {
-        if rig.arm.is_some() { vec![] } else { carrying::moving_contexts(rig) }
+        let is_driven = rig.arm.is_none() && rig.actuators.iter().any(Signal::varies);
+        if is_driven { carrying::moving_contexts(rig) } else { vec![] }
     }
 
     fn parameters(&self, rig: &Rig, carrier: Carrier) -> Vec<ParameterSpec> {

@@ -151,6 +151,13 @@ pub fn write(asked: &Asked) -> Option<Body> {
             "bent_lag_step(time, z, v[0], v[1], v[2], v[3], &m->state[@J]) - z",
             Some(("$name_lag", "bent_lag")),
         ),
+        "outflow" => ranged(
+            asked,
+            2,
+            "tau dz/dt = 2 (sqrt(1 + b x) - sqrt(1 + b z))/b,   x = (q - m)/h,   q' = m + h z",
+            "root_lag_step(time, z, v[0], v[1], &m->state[@J]) - z",
+            Some(("$name_lag", "root_lag")),
+        ),
         "input_nonlinearity" => ranged(
             asked,
             2 * asked.columns,

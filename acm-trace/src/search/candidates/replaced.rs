@@ -1,5 +1,7 @@
 //! States with an effect in another form: a refinement or the simpler effect in its place, a constant size, one of each actuator.
 
+use std::f64::consts::TAU;
+
 use acm_core::effects::Carrier;
 use acm_core::effects::instance::Instance;
 
@@ -131,6 +133,45 @@ pub(super) fn apart(problem: &Problem, state: &State, i: usize, library: &[Insta
     let states = std::iter::once(None).chain(others).map(all).collect();
     Some(Candidate { label: last.label(problem.rig), states, each: None })
 }
+
+/// Returns the state with two lags in a row in the place of an oscillator that is overdamped, of each kind of which there may be two:
+/// 1/((1 + s τ₁)(1 + s τ₂)) with τ = T (ζ ± √(ζ² − 1))/2π.
+pub(super) fn in_a_row(problem: &Problem, state: &State, i: usize, library: &[Instance]) -> Vec<Candidate> {
+    let old = &state.effects[i];
+    let value = |name: &str| {
+        let at = old.instance.parameters().iter().position(|spec| spec.name == name)?;
+        Some(old.theta[at])
+    };
+    let (Some(period), Some(damping)) = (value("period"), value("damping").filter(|damping| *damping > 1.0)) else {
+        return vec![];
+    };
+    let apart = (damping * damping - 1.0).sqrt();
+    let taus = [damping - apart, damping + apart].map(|factor| factor * period / TAU);
+    let is_lag = |one: &&Instance| {
+        let traits = one.effect().traits();
+        traits.repeats && traits.refines == Some(LAG) && one.carrier() == old.instance.carrier()
+    };
+    let rest = state.without(i);
+    let of = |lag: &Instance| {
+        let at = lag.parameters().iter().position(|spec| spec.name == "tau")?;
+        let placed = |theta: &[f64], tau: f64| {
+            let mut theta = theta.to_vec();
+            theta[at] = lag.parameters()[at].inside(tau);
+            Placed { theta, in_calibration: old.in_calibration, instance: lag.clone() }
+        };
+        let mut shapes: Vec<Vec<f64>> = vec![];
+        for guess in lag.initial_guesses(problem.rig) {
+            let is_known = shapes.iter().any(|known| (0..guess.len()).all(|j| j == at || known[j] == guess[j]));
+            shapes.extend((!is_known).then_some(guess));
+        }
+        let states = shapes.iter().map(|theta| taus.iter().fold(rest.clone(), |to, tau| to.with(placed(theta, *tau))));
+        Some(Candidate { label: lag.label(problem.rig), states: states.collect(), each: None })
+    };
+    library.iter().filter(is_lag).filter_map(of).collect()
+}
+
+/// The lag that those of a vessel refine.
+const LAG: &str = "actuator_lag";
 
 /// Returns whether two effects refine the same simpler one, which acts through the same signal.
 pub(super) fn is_refined_alike(one: &Instance, other: &Instance) -> bool {

@@ -3,8 +3,8 @@
 //! Exact for an input that is straight between samples: between two zeros of z it is a lag behind x − w sgn z, and z reaches zero
 //! where that lag does, which is found by bisection.
 
-use super::lag::relax;
-use super::{Point, State};
+use super::super::lag::relax;
+use super::super::{Point, State};
 
 /// Bisections of the time at which z reaches zero.
 const BISECTIONS: usize = 50;
@@ -122,7 +122,8 @@ mod tests {
     /// Oracle: without friction it is the lag.
     #[test]
     fn without_friction_it_is_a_lag() {
-        let (mut stick, mut lag, mut decay) = (StickLag::default(), super::super::Lag::default(), Default::default());
+        let (mut stick, mut lag, mut decay) =
+            (StickLag::default(), crate::effects::memory::Lag::default(), Default::default());
         for k in 0..60 {
             let (time, x) = (0.1 * f64::from(k), (0.7 * f64::from(k)).cos());
             let truth = lag.step(time, x, 0.25, &mut decay);

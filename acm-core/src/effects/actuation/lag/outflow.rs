@@ -1,0 +1,122 @@
+//! Vessel with an outflow by Torricelli's law: the level that follows what flows in, and empties the slower the lower it is.
+//!
+//! ```text
+//! τ dz/dt = 2 (√(1 + κ x) − √(1 + κ z))/κ,   x = (q − m)/h,   q̃ = m + h z,   q̃(t_0) = q(t_0)
+//! ```
+//!
+//! | symbol       | meaning                                                                      | unit            |
+//! | `τ`          | time constant at the middle of the range, all actuators                      | s               |
+//! | `κ`          | 0 to 0.999: how near the bottom the lower end of the range is, all actuators | 1               |
+//! | `m_j`, `h_j` | middle of the recorded range of each actuator, half its width                | of the actuator |
+//!
+//! With A dy/dt = w − c √y the inflow is given as the level x at which as much flows out, (w/c)²; the bottom is at z = −1/κ. Vessels that
+//! empty into one another are a chain of it, in which each level stands for its outflow. At κ = 0 it is `actuator_lag`. Second order in the
+//! time between samples ([`memory::RootLag`]). Seborg, Edgar, Mellichamp & Doyle (2016), Process Dynamics and Control, 4th ed., ch. 2.4.5
+//! (liquid storage systems).
+
+use crate::effects::actuation::actuators;
+use crate::effects::{
+    Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, guesses, memory, times,
+};
+
+/// See the head of this file.
+pub struct Outflow;
+
+/// Parameters before the ends of the ranges.
+const OWN: usize = 2;
+
+/// Time constants to start from, and values of κ.
+const TAUS: usize = 12;
+const BENDS: [f64; 3] = [0.5, 0.9, 0.98];
+
+impl Effect for Outflow {
+    fn name(&self) -> &'static str {
+        "outflow"
+    }
+
+    fn meaning(&self) -> &'static str {
+        "a vessel fills by the actuators and empties through an orifice"
+    }
+
+    fn site(&self) -> Site {
+        Site::Actuation
+    }
+
+    fn source(&self) -> &'static str {
+        "Seborg, Edgar, Mellichamp & Doyle (2016), Process Dynamics and Control, 4th ed., ch. 2"
+    }
+
+    fn traits(&self) -> Traits {
+        Traits {
+            is_rare: true,
+            repeats: true,
+            refines: Some("actuator_lag"),
+            shows_against_rate: true,
+            ..Traits::default()
+        }
+    }
+
+    fn carriers(&self, rig: &Rig) -> Vec<Carrier> {
+        // Nothing empties that way in an arm.
+        if rig.arm.is_some() { vec![] } else { actuators::moving(rig) }
+    }
+
+    fn parameters(&self, rig: &Rig, _: Carrier) -> Vec<ParameterSpec> {
+        let bend = ParameterSpec::shape("bend", "1", 0.0, 0.3).within(0.0, 0.999);
+        [times::size(rig, "tau"), bend].into_iter().chain(actuators::ends(rig)).collect()
+    }
+
+    fn initial_guesses(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
+        let specs = self.parameters(rig, carrier);
+        let at = |tau: f64, bend: f64| {
+            let mut guess = guesses::guess_with(&specs, 1.0, 0, tau);
+            guess[1] = bend;
+            guess
+        };
+        guesses::thinned(&times::grid(rig), TAUS).iter().flat_map(|tau| BENDS.map(|bend| at(*tau, bend))).collect()
+    }
+
+    fn proceed(&self, _: Carrier, values: Values, record: &Record, memory: &mut Memory, columns: &mut [Vec<f64>]) {
+        let count = columns.len();
+        let lags = memory.states::<memory::RootLag>(count);
+        for (j, (q, lag)) in columns.iter_mut().zip(lags).enumerate() {
+            let (middle, half) = actuators::middle_and_half(values, OWN, count, j);
+            if !actuators::is_range(middle, half) {
+                continue;
+            }
+            for (t, (q, time)) in q.iter_mut().zip(&record.time).enumerate() {
+                let x = (*q - middle) / half;
+                *q += half * (lag.step(*time, x, values.at(0, t), values.at(1, t)) - x);
+            }
+        }
+    }
+
+    fn memory(&self, values: Values) -> Option<f64> {
+        Some(values.at(0, 0) * (1.0 + values.at(1, 0)).sqrt())
+    }
+
+    fn second_memory(&self, values: Values) -> Option<f64> {
+        (values.at(1, 0) > 0.0).then(|| values.at(0, 0) * (1.0 - values.at(1, 0)).sqrt())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Oracle: Torricelli's √y = √y_0 − c t/(2A) of a vessel that nothing flows into, from 4 m to its bottom, 0 m; A/c = 3 s √m. The range is
+    /// 0 to 4 m, so that τ = 2 A/c √2 m at its middle.
+    #[test]
+    fn a_vessel_empties() {
+        let time: Vec<f64> = [0.0, 1e-9].into_iter().chain((1..350).map(|k| 0.02 * f64::from(k))).collect();
+        let mut columns = vec![vec![0.0; time.len()]];
+        columns[0][0] = 4.0;
+        let record = Record::new(time.clone(), columns.clone(), vec![], vec![]);
+        let values = [6.0 * 2.0f64.sqrt(), 1.0, 4.0, 0.0];
+        Outflow.act(Carrier::Rig, Values::constant(&[], &values), &record, &mut columns);
+        for (t, level) in time.iter().zip(&columns[0]).skip(1) {
+            let truth = (2.0 - t / 6.0).powi(2);
+            assert!((level - truth).abs() < 1e-3, "{t}: {level} and {truth}");
+        }
+    }
+}
