@@ -125,6 +125,22 @@ pub fn charging(time: &[f64], motion: &Motion, tau: f64, saturated: f64) -> Vec<
     })
 }
 
+/// Level of the lower of two vessels in a row, over a bottom at −1.05, by the midpoint rule: each empties by a rate times the root of its
+/// depth, and fills by the same of the one above. The motion is the level at which the inflow would hold the upper one.
+pub fn emptied(time: &[f64], motion: &Motion, rates: [f64; 2]) -> Vec<f64> {
+    let flow = |level: f64| (level + 1.05).max(0.0).sqrt();
+    let start = motion.at(time[0]);
+    let levels = integrated(time, motion, [start; 2], |[upper, lower], from, to, h| {
+        let speeds = |[upper, lower]: [f64; 2], above: f64| {
+            [rates[0] * (flow(above) - flow(upper)), rates[1] * (flow(upper) - flow(lower))]
+        };
+        let first = speeds([upper, lower], from);
+        let middle = speeds([upper + 0.5 * h * first[0], lower + 0.5 * h * first[1]], 0.5 * (from + to));
+        [upper + h * middle[0], lower + h * middle[1]]
+    });
+    levels.into_iter().map(|[_, lower]| lower).collect()
+}
+
 fn pushed(state: f64, q: f64, width: f64) -> f64 {
     if (q - state).abs() > width { q - width * (q - state).signum() } else { state }
 }

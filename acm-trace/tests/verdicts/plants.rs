@@ -8,7 +8,7 @@ use nalgebra::DMatrix;
 use rand::RngExt;
 
 use crate::bench::{Bench, STEP, effect, found, is_near, names, parameter, press, told};
-use crate::effects::{lagged_after, warmed};
+use crate::effects::{emptied, lagged_after, warmed};
 use crate::motion::{Motion, normal, random};
 
 const NOISE: f64 = 0.01;
@@ -78,6 +78,17 @@ fn a_valve_has_a_dead_zone_about_its_rest() {
     for (name, truth) in [("half_width_q1", 0.6), ("rest_q1", 5.3)] {
         assert!((parameter(zone, name).value / truth - 1.0).abs() < 0.02, "{name}: {}", told(&finding));
     }
+    assert!(is_near(&finding, NOISE), "{}", told(&finding));
+}
+
+/// Two vessels in a row empty through orifices.
+#[test]
+fn a_vessel_empties_into_another() {
+    let finding = traced(|name, k| {
+        let drive = straight().drive(k, 400, 74, &[]);
+        straight().trial(name, &drive, &[emptied(&drive.time, &drive.motion[0], [4.0, 1.5])])
+    });
+    assert_eq!(names(&finding), ["outflow"; 2], "{}", told(&finding));
     assert!(is_near(&finding, NOISE), "{}", told(&finding));
 }
 

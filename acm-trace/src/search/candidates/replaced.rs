@@ -182,6 +182,7 @@ pub(super) fn is_refined_alike(one: &Instance, other: &Instance) -> bool {
 #[cfg(test)]
 mod tests {
     use acm_core::effects::find;
+    use acm_core::record::Record;
 
     use super::*;
     use crate::fit::bench;
@@ -208,5 +209,30 @@ mod tests {
         assert_eq!(simple.effects[0].instance.effect().name(), name);
         assert_eq!(simple.effects[0].theta[..2], [0.4, 0.7]);
         assert!(plainer(&simple, 0, &library).is_none());
+    }
+
+    /// Oracle: (1 + s τ₁)(1 + s τ₂) is 1 + 2ζ s T/2π + (s T/2π)². An oscillator that swings is no two lags.
+    #[test]
+    fn an_overdamped_oscillator_is_two_lags_in_a_row() {
+        let rig = bench::rig(&["q"], &[], &["y"]);
+        let still = vec![0.0; bench::time().len()];
+        let record = Record::new(bench::time(), vec![still.clone()], vec![], vec![]);
+        let series = [bench::series(record, still)];
+        let problem = Problem::new(&rig, &series, &[1.0], None);
+        let library = [bench::placed("outflow", Carrier::Rig, &rig, &[]).instance];
+        let of = |damping: f64| {
+            let oscillator = bench::placed("second_order_lag", Carrier::Rig, &rig, &[2.0, damping]);
+            in_a_row(&problem, &State::bare(Form::LINEAR).with(oscillator), 0, &library)
+        };
+        assert!(of(0.9).is_empty());
+        let states = of(1.6).remove(0).states;
+        for state in &states {
+            let [first, second] = [0, 1].map(|i| state.effects[i].theta[0]);
+            assert!((first * second - (2.0 / TAU).powi(2)).abs() < 1e-12, "{first} {second}");
+            assert!((first + second - 2.0 * 1.6 * 2.0 / TAU).abs() < 1e-12, "{first} {second}");
+        }
+        let mut bends: Vec<f64> = states.iter().map(|state| state.effects[1].theta[1]).collect();
+        bends.dedup();
+        assert_eq!(bends.len(), states.len(), "each shape once");
     }
 }
