@@ -25,9 +25,8 @@ pub use super::projected::{Projected, project};
 /// Difference that slopes are taken from, in u; smaller for a resonance, and for an effect that is periodic in an actuator.
 const STEP: (f64, f64) = (0.02, 0.002);
 
-/// Steps of a resonance for each of another effect: its valley is narrow and bent. The second number is for one that was refined before
-/// another effect joined it.
-const RINGING: (usize, usize) = (4, 2);
+/// Steps of a resonance for each of another effect: its valley is narrow and bent.
+const RINGING: usize = 4;
 
 /// Initial radius of the trust region, in u.
 const RADIUS: f64 = 0.7;
@@ -202,15 +201,10 @@ pub fn slopes(problem: &Problem, state: &State, beta: &DMatrix<f64>) -> Vec<DMat
     all.into_iter().filter(|z| z.iter().all(|z| z.is_finite()) && z.amax() > 0.0).collect()
 }
 
-/// Returns the largest number of steps of a state, more where an effect is a resonance; with `new` all others were refined without it.
-pub fn steps(state: &State, new: Option<usize>, iterations: usize) -> usize {
-    let rings = |placed: &Placed| placed.instance.effect().traits().is_resonance;
-    let factor = match new {
-        _ if !state.effects.iter().any(|placed| rings(placed)) => 1,
-        Some(i) if !rings(&state.effects[i]) => RINGING.1,
-        _ => RINGING.0,
-    };
-    factor * iterations
+/// Returns the largest number of steps of a state: [`RINGING`] times as many with a resonance.
+pub fn steps(state: &State, iterations: usize) -> usize {
+    let rings = |placed: &Arc<Placed>| placed.instance.effect().traits().is_resonance;
+    if state.effects.iter().any(rings) { RINGING * iterations } else { iterations }
 }
 
 /// Returns the state with its nonlinear parameters refined, `iterations` steps at most.
