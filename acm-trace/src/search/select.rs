@@ -73,7 +73,7 @@ impl Search<'_, '_> {
 
     /// Extends every set of the beam by each of its best candidates that passes; of sets that differ in what sizes
     /// depend on, the best is kept. A first effect that chance may explain is extended too: what another cause leaves
-    /// is chance to it. Beside a second effect it is tested again.
+    /// is chance to it. So is an effect that a static map imitates. Beside a second effect both are tested again.
     fn grow(&mut self, beam: &[Scored], done: &mut Vec<Scored>) -> Vec<Scored> {
         let mut next: Vec<Scored> = Vec::new();
         for (score, state, losses) in beam {
