@@ -5,9 +5,9 @@
 //! a piece, after t = τ ln(1 + (x − z)/(−m τ)); from there on z follows with the other time constant. With two that are alike it is
 //! [`Lag`], to the last bit.
 
-use super::super::beside::Beside;
-use super::super::lag::relax;
-use super::super::{Lag, Last, Point, State};
+use crate::effects::memory::beside::Beside;
+use crate::effects::memory::lag::relax;
+use crate::effects::memory::{Lag, Last, Point, State};
 
 /// The step of the last h, τ_u and τ_d: what [`Lag`] has for either.
 pub type Decays = Last<(f64, [f64; 2]), [(f64, f64); 2]>;

@@ -1,13 +1,13 @@
 //! First-order lag whose time constant depends on where it is: τ0 b(z) ż = x − z, b = ρ + (1 − ρ) (1 + κ z) (1 + |λ| z²)^{sgn λ} with
 //! |z| ≤ 1 and 1 + κ z ≥ 1/20; at rest at the first sample.
 //!
-//! Over each of [`super::super::substeps::PARTS`] parts of an interval the lag is exact for a constant τ, which is that of the mean
+//! Over each of [`crate::effects::memory::substeps::PARTS`] parts of an interval the lag is exact for a constant τ, which is that of the mean
 //! of z at both ends, found by two passes. Every pass draws z towards the input, so it is stable for every step; second order
 //! in the part.
 
-use super::super::lag::relax;
-use super::super::substeps::parts;
-use super::super::{Point, State};
+use crate::effects::memory::lag::relax;
+use crate::effects::memory::substeps::parts;
+use crate::effects::memory::{Point, State};
 
 /// Smallest 1 + κ z.
 const LEAST: f64 = 0.05;

@@ -1,13 +1,13 @@
 //! Level of a vessel that empties through an orifice: τ ż = 2 (√(1 + κx) − √(1 + κz))/κ, roots of no less than zero; at rest at the first
 //! sample.
 //!
-//! It is a first-order lag with the time constant τ (√(1 + κx) + √(1 + κz))/2. Over each of [`super::super::substeps::PARTS`] parts of an interval
+//! It is a first-order lag with the time constant τ (√(1 + κx) + √(1 + κz))/2. Over each of [`crate::effects::memory::substeps::PARTS`] parts of an interval
 //! the lag is exact for a constant one, which is that of the means of x and of z at both ends, found by two passes. Every pass draws z
 //! towards the input, so it is stable for every step; second order in the part.
 
-use super::super::lag::relax;
-use super::super::substeps::parts;
-use super::super::{Point, State};
+use crate::effects::memory::lag::relax;
+use crate::effects::memory::substeps::parts;
+use crate::effects::memory::{Point, State};
 
 /// Smallest root: near the bottom it empties in no time.
 const LEAST: f64 = 1e-6;

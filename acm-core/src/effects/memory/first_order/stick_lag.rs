@@ -3,8 +3,8 @@
 //! Exact for an input that is straight between samples: between two zeros of z it is a lag behind x − w sgn z, and z reaches zero
 //! where that lag does, which is found by bisection.
 
-use super::super::lag::relax;
-use super::super::{Point, State};
+use crate::effects::memory::lag::relax;
+use crate::effects::memory::{Point, State};
 
 /// Bisections of the time at which z reaches zero.
 const BISECTIONS: usize = 50;
