@@ -34,12 +34,13 @@ static double dry_friction_over(double force, double transition, double sum, dou
     if (!(force > 0.0) || !(size > 0.0 && size <= 1.7e308)) {
         return 0.0;
     }
-    double r = brakes * force > size ? size / brakes : force;
+    const double most = force * size / sqrt_d(size * size + wide);
+    double r = brakes * most > size ? size / brakes : most;
     for (int step = 0; step < 50; ++step) {
         const double speed = size - brakes * r, square = speed * speed + wide, steep = force / sqrt_d(square);
         const double change = (r - steep * speed) / (1.0 + brakes * steep * wide / square);
         r -= change;
-        if (change <= 1e-12 * force && change >= -1e-12 * force) {
+        if (change <= 1e-9 * force && change >= -1e-9 * force) {
             break;
         }
     }

@@ -15,8 +15,8 @@ const LEAST: f64 = 1e-12;
 /// Most steps of Newton's method; the error is squared by each.
 const STEPS: usize = 50;
 
-/// Change of r, in f, below which it is found.
-const FOUND: f64 = 1e-12;
+/// Change of r, in f, below which it is found: the next would be its square, times f b/w at most.
+const FOUND: f64 = 1e-9;
 
 /// See the head of this file.
 #[derive(Debug, Clone, Copy)]
@@ -38,8 +38,9 @@ impl Friction {
             return 0.0;
         }
         let (size, wide) = (sum.abs(), wide * wide);
-        // Where it would turn the motion round, the mean speed is 0.
-        let mut r = if brakes * self.force > size { size / brakes } else { self.force };
+        // No larger than without the brake; where it would turn the motion round, the mean speed is 0.
+        let most = self.force * size / (size * size + wide).sqrt();
+        let mut r = if brakes * most > size { size / brakes } else { most };
         for _ in 0..STEPS {
             let speed = size - brakes * r;
             let square = speed * speed + wide;
