@@ -241,6 +241,21 @@ mod tests {
         assert!(bare.with_turned(bench::placed("actuator_lag", Carrier::Rig, &rig, &[0.3])).is_none());
     }
 
+    /// Oracle: by hand. A saturation has no memory; a lag has one, and a term of a context signal is none of the inputs.
+    #[test]
+    fn static_inputs_are_left_out() {
+        let rig = bench::rig(&["q"], &["c"], &["y"]);
+        let all = [
+            bench::placed("saturation", Carrier::Rig, &rig, &[]),
+            bench::placed("actuator_lag", Carrier::Rig, &rig, &[0.3]),
+            bench::placed("context_term", Carrier::Context(0), &rig, &[1.0]),
+        ];
+        let state = all.into_iter().fold(State::bare(Form::LINEAR), |state, placed| state.with(placed));
+        let left = state.without_static_inputs();
+        let names: Vec<&str> = left.effects.iter().map(|placed| placed.instance.effect().name()).collect();
+        assert_eq!(names, ["actuator_lag", "context_term"]);
+    }
+
     /// Oracle: by hand. A larger set may change values of a smaller one's effects, and not move one onto a bound.
     #[test]
     fn values_that_move_onto_a_bound_are_not_kept() {

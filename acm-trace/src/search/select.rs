@@ -212,4 +212,34 @@ mod tests {
         assert_eq!(found(2, 0.0), Vec::<String>::new());
         assert_eq!(found(3, 0.0), ["context_term(c)"]);
     }
+
+    /// Oracle: y is q beyond a dead zone of 0.25 half ranges, cut off 0.7 on, beside noise. A polynomial takes up most of either corner,
+    /// and neither of both together. Where y is a polynomial of q, none has corners.
+    #[test]
+    fn a_dead_zone_and_a_saturation_are_proven_together() {
+        let rig = bench::rig(&["q"], &[], &["y"]);
+        let time: Vec<f64> = bench::time().into_iter().take(400).collect();
+        let library = ["dead_zone", "saturation"].map(|name| bench::placed(name, Carrier::Rig, &rig, &[]).instance);
+        let found = |y: &dyn Fn(f64) -> f64| {
+            let mut random = 1u64;
+            let mut noise = || {
+                random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+                0.02 * ((random >> 11) as f64 / (1u64 << 53) as f64 - 0.5)
+            };
+            let series: Vec<_> = (0..12)
+                .map(|trial| {
+                    let q: Vec<f64> = time.iter().map(|t| (1.7 * t + f64::from(trial)).sin()).collect();
+                    let y = q.iter().map(|q| y(*q) + noise()).collect();
+                    bench::series(Record::new(time.clone(), vec![q], vec![], vec![]), y)
+                })
+                .collect();
+            let problem = Problem::new(&rig, &series, &[1.0], None);
+            let (criteria, trials) = (Criteria::default(), Trials { problem: &problem, quick: &problem });
+            let mut search = Search::new(trials, &library, &criteria, 1, false);
+            search.run(&State::bare(Form::LINEAR), None, |_| ()).last.labels(&rig)
+        };
+        let cornered = |q: f64| (q.abs() - 0.25).max(0.0).min(0.45).copysign(q);
+        assert_eq!(found(&cornered), ["dead_zone", "saturation"]);
+        assert_eq!(found(&|q| q - 0.4 * q.powi(3) + 0.1 * q.powi(5)), Vec::<String>::new());
+    }
 }
