@@ -238,7 +238,7 @@ mod tests {
             let mut search = Search::new(trials, &library, &criteria, 1, false);
             search.run(&State::bare(Form::LINEAR), None, |_| ()).last.labels(&rig)
         };
-        let cornered = |q: f64| (q.abs() - 0.25).max(0.0).min(0.45).copysign(q);
+        let cornered = |q: f64| (q.abs() - 0.25).clamp(0.0, 0.45).copysign(q);
         assert_eq!(found(&cornered), ["dead_zone", "saturation"]);
         assert_eq!(found(&|q| q - 0.4 * q.powi(3) + 0.1 * q.powi(5)), Vec::<String>::new());
     }
