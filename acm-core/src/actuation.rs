@@ -35,7 +35,13 @@ pub struct Monomials {
 
 /// All monomials of degrees 1 to `degree`; none where either is zero.
 pub fn monomials(actuators: usize, degree: usize) -> Monomials {
-    let exponents: Vec<Vec<usize>> = (1..=degree).flat_map(|total| exponents_of_degree(actuators, total)).collect();
+    monomials_within(&vec![degree; actuators], degree)
+}
+
+/// The monomials of degrees 1 to `degree` in which no actuator has a higher power than its own `highest`.
+pub fn monomials_within(highest: &[usize], degree: usize) -> Monomials {
+    let actuators = highest.len();
+    let exponents: Vec<Vec<usize>> = (1..=degree).flat_map(|total| exponents_of_degree(highest, total)).collect();
     // Where the monomial stands that has one q_a less; the constant has no place.
     let places: BTreeMap<&[usize], usize> = exponents.iter().enumerate().map(|(j, e)| (e.as_slice(), j)).collect();
     let without = |exponents: &[usize], a: usize| {
@@ -61,15 +67,33 @@ pub fn monomial_count(actuators: usize, degree: usize) -> usize {
     product as usize - 1
 }
 
-/// Exponents that sum to `total`, the first variable's highest power first.
-fn exponents_of_degree(variables: usize, total: usize) -> Vec<Vec<usize>> {
-    match variables {
-        0 => Vec::new(),
-        1 => vec![vec![total]],
-        _ => (0..=total)
+/// Number of those of [`monomials_within`], without listing them.
+pub fn monomial_count_within(highest: &[usize], degree: usize) -> usize {
+    let mut of_degree = vec![0_usize; degree + 1];
+    of_degree[0] = 1;
+    for &highest in highest {
+        of_degree = (0..=degree)
+            .map(|total| (0..=highest.min(total)).fold(0_usize, |sum, e| sum.saturating_add(of_degree[total - e])))
+            .collect();
+    }
+    of_degree[1..].iter().fold(0_usize, |sum, count| sum.saturating_add(*count))
+}
+
+/// Exponents up to their highest that sum to `total`, the first variable's highest power first.
+fn exponents_of_degree(highest: &[usize], total: usize) -> Vec<Vec<usize>> {
+    match highest {
+        [] => Vec::new(),
+        [last] => {
+            if total <= *last {
+                vec![vec![total]]
+            } else {
+                Vec::new()
+            }
+        }
+        [first, rest @ ..] => (0..=total.min(*first))
             .rev()
             .flat_map(|first| {
-                let rest = exponents_of_degree(variables - 1, total - first);
+                let rest = exponents_of_degree(rest, total - first);
                 rest.into_iter().map(move |rest| [vec![first], rest].concat())
             })
             .collect(),
@@ -211,6 +235,19 @@ mod tests {
             }
         }
         assert!(monomial_count(10_000, 9) > 1_000_000);
+    }
+
+    /// Oracle: the whole list, without what has too high a power.
+    #[test]
+    fn powers_within_their_highest_are_those_of_the_whole_list() {
+        for (highest, degree) in [(vec![6, 2], 6), (vec![1, 1, 1], 3), (vec![4, 0, 2], 4), (vec![2], 5)] {
+            let whole = monomials(highest.len(), degree);
+            let within = |exponents: &&Vec<usize>| exponents.iter().zip(&highest).all(|(e, highest)| e <= highest);
+            let expected: Vec<Vec<usize>> = whole.exponents().iter().filter(within).cloned().collect();
+            assert_eq!(monomials_within(&highest, degree).exponents(), expected);
+            assert_eq!(monomial_count_within(&highest, degree), expected.len());
+        }
+        assert!(monomial_count_within(&[9; 10_000], 9) > 1_000_000);
     }
 
     /// Oracle: central differences, exact to rounding for a cubic with a small step.

@@ -1,6 +1,5 @@
 //! Conversion of a search state to the model that is saved; both predict the same.
 
-use acm_core::actuation::monomials;
 use acm_core::augmented::AugmentedModel;
 use acm_core::effects::instance::Instance;
 use acm_core::nominal::NominalModel;
@@ -81,7 +80,7 @@ impl Assembled {
 /// Returns the correction as a static map.
 fn map(problem: &Problem, form: Form, fitted: &Projected) -> Option<StaticMap> {
     let actuators = problem.rig.actuators.len();
-    let basis = monomials(actuators, form.degree?);
+    let basis = form.monomials(actuators)?;
     let powers: Vec<Vec<usize>> =
         std::iter::once(vec![0; actuators]).chain(basis.exponents().iter().cloned()).collect();
     let coefficients =
@@ -137,13 +136,14 @@ fn polynomial(problem: &Problem, form: Form, fitted: &Projected) -> Response {
     }
     let blank = Polynomial::fit(&DMatrix::zeros(1, actuators), &DMatrix::zeros(1, width), 1).polynomial;
     let bent = (degree > 1 || !form.kinks.is_empty() || form.sums != Sums::None).then(|| {
-        let powers: Vec<Vec<usize>> =
-            monomials(actuators, degree).exponents().iter().skip(actuators).cloned().collect();
+        let monomials = form.monomials(actuators);
+        let exponents = monomials.iter().flat_map(|monomials| monomials.exponents());
+        let powers: Vec<Vec<usize>> = exponents.skip(actuators).cloned().collect();
         // The map's own inputs are 1 at its borders.
         let scale = |j: usize| BEYOND.powi(powers[j].iter().sum::<usize>() as i32);
         let bent = DMatrix::from_fn(powers.len(), width, |j, o| scale(j) * beta(1 + actuators + j, o));
         let border = |sign: f64| problem.range.iter().map(|(middle, half)| middle + sign * BEYOND * half).collect();
-        let first = 1 + monomials(actuators, degree).len();
+        let first = 1 + form.monomial_count(actuators);
         let kinks = kinks(problem, form, first, fitted);
         let harmonics = harmonics(problem, form, first + kinks.len(), fitted);
         StaticMap::from_powers(border(-1.0), border(1.0), &powers, &bent).with_kinks(kinks).with_harmonics(harmonics)
@@ -205,7 +205,7 @@ mod tests {
         let series = [bench::series(Record::new(bench::time(), vec![q], vec![], vec![]), y)];
         let problem = Problem::new(&rig, &series, &[1.0], None);
         let (middle, half) = problem.range[0];
-        let state = State::bare(Form { degree: Some(3), kinks: Kinks::NONE, sums: Sums::None, ridge: 1e-9 });
+        let state = State::bare(Form { degree: Some(3), ridge: 1e-9, ..Form::LINEAR });
         let model = Assembled::new(&problem, &state).unwrap().model();
         let at = |q: Vec<f64>| {
             let time = (0..q.len()).map(|k| k as f64).collect();
@@ -233,7 +233,7 @@ mod tests {
         let flat = Base { stands_for: &zero, strain: None };
         for (base, beyond) in [(None, -1.5), (Some(flat), -1.0)] {
             let problem = Problem::new(&rig, &series, &[1.0], base);
-            let state = State::bare(Form { degree: Some(1), kinks: Kinks::spaced(16), sums: Sums::None, ridge: 1e-9 });
+            let state = State::bare(Form { kinks: Kinks::spaced(16), ridge: 1e-9, ..Form::LINEAR });
             let model = Assembled::new(&problem, &state).unwrap().model();
             let at = [-0.7, 0.2, 0.9, 1.5].to_vec();
             let given = DMatrix::zeros(4, 1);

@@ -7,6 +7,7 @@ use acm_core::effects::own::Own;
 
 use crate::agreement::agrees;
 use crate::case::{Case, Trial};
+use crate::covered::extrapolated;
 use crate::diagnose::autocorrelation::autocorrelation;
 use crate::diagnose::events::events;
 use crate::diagnose::probe::probe;
@@ -84,6 +85,7 @@ pub fn close(
     let symbolic = open.and_then(|left| symbolic(&left.remainder(&traced.problem, traced.noise), &left.absorbed));
     let mut cautions = about.cautions;
     cautions.extend(prepared.caution.clone());
+    cautions.extend(extrapolated(&prepared.case, holdout.trials()));
     if !traced.problem.blocks.by_trial {
         cautions.push("Few trials: regions of time were left out in turn instead of trials, which is weaker.".into());
     }

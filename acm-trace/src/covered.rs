@@ -1,4 +1,4 @@
-//! Development samples at which the calibrated nominal model says something.
+//! Samples at which the calibrated nominal model says something.
 //!
 //! Calibration trials that hold an actuator at no more values than the degree of the nominal form leave its polynomial open: beyond these
 //! values its error is as large as that of any effect. Effects act on the whole record; only samples that are covered are compared.
@@ -101,6 +101,29 @@ impl Covered {
     }
 }
 
+/// Returns what a reader has to know where held-out trials leave the actuators of all trials that models are fitted to.
+pub fn extrapolated(case: &Case, held_out: &[Trial]) -> Option<String> {
+    let widened = |a: usize| {
+        let (own, other) = (range(case.calibration.iter().chain(&case.development), a), range(held_out, a));
+        let margin = 0.5 * (BEYOND - 1.0) * (own.1.max(other.1) - own.0.min(other.0));
+        (own.0 - margin, own.1 + margin)
+    };
+    let fitted_to = Covered { ranges: (0..case.rig.actuators.len()).map(widened).collect() };
+    let all: usize = held_out.iter().map(|trial| trial.record.samples()).sum();
+    let inside: usize = held_out.iter().map(|trial| fitted_to.samples(trial)).sum();
+    let share = 100.0 * (all - inside) as f64 / all.max(1) as f64;
+    (share >= LITTLE).then(|| {
+        let beyond = fitted_to.beyond(&case.rig, held_out);
+        format!(
+            "{share:.0} % of the held-out samples lie beyond the trials that models are fitted to ({beyond}): their error is one of \
+             extrapolation. Give a trial that goes there the role of development or calibration."
+        )
+    })
+}
+
+/// Share of samples beyond that is not worth a word, %.
+const LITTLE: f64 = 1.0;
+
 /// What helps.
 const ADVICE: &str = "record calibration trials there, or give these trials the role of calibration";
 
@@ -108,9 +131,9 @@ const ADVICE: &str = "record calibration trials there, or give these trials the 
 const HELD: f64 = 0.1;
 
 /// Returns the lowest and the highest value of an actuator.
-fn range(trials: &[Trial], actuator: usize) -> (f64, f64) {
-    let values = || trials.iter().flat_map(|trial| &trial.record.actuators[actuator]).copied();
-    (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max))
+fn range<'t>(trials: impl IntoIterator<Item = &'t Trial>, actuator: usize) -> (f64, f64) {
+    let values = trials.into_iter().flat_map(|trial| &trial.record.actuators[actuator]);
+    values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (value.min(low), value.max(high)))
 }
 
 #[cfg(test)]
@@ -151,6 +174,19 @@ mod tests {
         series[0].counts.fill(true);
         covered.take_out(&mut series);
         assert_eq!(series[0].counts, [true, true, false, true]);
+    }
+
+    /// Oracle: by hand. All trials together go from 0 to 8, so that up to one beyond 0 to 4 is within the margin: of five samples two are not.
+    #[test]
+    fn held_out_samples_beyond_all_others_are_told() {
+        let case = case(&[0.0, 1.0], &[&[2.0, 4.0]]);
+        let caution = extrapolated(&case, &[trial("a", &[0.5, 4.9, 5.1]), trial("b", &[3.0, 8.0])]).unwrap();
+        assert!(
+            caution.starts_with("40 % of the held-out samples") && caution.contains("q goes from 0.500 to 8.000"),
+            "{caution}"
+        );
+        assert_eq!(extrapolated(&case, &[trial("a", &[0.5, 4.4])]), None);
+        assert_eq!(extrapolated(&case, &[]), None);
     }
 
     /// Oracle: by hand. A sweep determines the cubic everywhere. What lies inside has no caution; where nothing would be left, everything stays; without calibration trials

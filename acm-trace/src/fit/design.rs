@@ -13,7 +13,7 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use acm_core::actuation::{Monomials, monomials};
+use acm_core::actuation::Monomials;
 use acm_core::augmented;
 use acm_core::clock_corrected;
 use acm_core::effects::Site;
@@ -65,7 +65,7 @@ impl Basis {
         let actuators = problem.rig.actuators.len();
         let kinks = (0..actuators).flat_map(|a| state.form.kinks.places().map(move |place| (a, place))).collect();
         let sums = sums(problem.rig, state.form.sums);
-        state.form.degree.map(|degree| Self { monomials: monomials(actuators, degree), kinks, sums })
+        state.form.monomials(actuators).map(|monomials| Self { monomials, kinks, sums })
     }
 
     /// Returns the number of columns, with the constant.
@@ -245,7 +245,7 @@ fn nominal_key(problem: &Problem, state: &State, s: usize, unrecorded: &Unrecord
 /// What the columns of the correction depend on beside the inputs.
 fn form_key(state: &State) -> Vec<f64> {
     let degree = state.form.degree.map_or(-1.0, |degree| degree as f64);
-    [&[state.clock, degree, state.form.sums.key()], &state.form.kinks.key()[..]].concat()
+    [&[state.clock, degree, state.form.sums.key()], &state.form.powers.key()[..], &state.form.kinks.key()[..]].concat()
 }
 
 /// Returns the columns beside one another.

@@ -15,9 +15,11 @@
 //! Without a base the straight part goes on, and z of the powers from 2 on stays within [`BEYOND`] half ranges of the middle.
 
 pub mod angles;
+mod powers;
 
-use acm_core::actuation::monomial_count;
+use acm_core::actuation::{Monomials, monomial_count_within, monomials_within};
 use angles::Sums;
+pub use powers::Powers;
 
 /// Half ranges from the middle up to which a polynomial is extrapolated. Beyond it goes on straight: an input that an effect throws far
 /// out would be raised to the sixth power.
@@ -25,11 +27,6 @@ pub const BEYOND: f64 = 1.25;
 
 /// Largest number of columns up to degree 3 and with kinks, and from degree 4 on.
 const COLUMNS: (usize, usize) = (90, 35);
-
-/// Returns whether a polynomial of so many actuators and this degree has few enough columns.
-pub fn fits(actuators: usize, degree: usize) -> bool {
-    monomial_count(actuators, degree) <= if degree < 4 { COLUMNS.0 } else { COLUMNS.1 }
-}
 
 /// Returns the largest number of kinks of each of so many actuators.
 pub fn most_kinks(actuators: usize) -> usize {
@@ -46,6 +43,8 @@ pub fn fits_sums(actuators: usize, sums: usize) -> bool {
 pub struct Form {
     /// Highest total degree; none: no correction at all.
     pub degree: Option<usize>,
+    /// Highest power of each actuator.
+    pub powers: Powers,
     /// Places of the kinks.
     pub kinks: Kinks,
     /// Sums of angles that the correction has a sine and a cosine of.
@@ -56,10 +55,27 @@ pub struct Form {
 
 impl Form {
     /// A straight line.
-    pub const LINEAR: Self = Self { degree: Some(1), kinks: Kinks::NONE, sums: Sums::None, ridge: 1e-6 };
+    pub const LINEAR: Self =
+        Self { degree: Some(1), powers: Powers::ANY, kinks: Kinks::NONE, sums: Sums::None, ridge: 1e-6 };
 
     /// The base as it is.
-    pub const GIVEN: Self = Self { degree: None, kinks: Kinks::NONE, sums: Sums::None, ridge: 1e-6 };
+    pub const GIVEN: Self =
+        Self { degree: None, powers: Powers::ANY, kinks: Kinks::NONE, sums: Sums::None, ridge: 1e-6 };
+
+    /// Returns the monomials of so many actuators; none without a correction.
+    pub fn monomials(&self, actuators: usize) -> Option<Monomials> {
+        self.degree.map(|degree| monomials_within(&self.powers.highest(actuators, degree), degree))
+    }
+
+    /// Returns the number of these monomials.
+    pub fn monomial_count(&self, actuators: usize) -> usize {
+        self.degree.map_or(0, |degree| monomial_count_within(&self.powers.highest(actuators, degree), degree))
+    }
+
+    /// Returns whether the polynomial of so many actuators has few enough columns.
+    pub fn fits(&self, actuators: usize) -> bool {
+        self.monomial_count(actuators) <= if self.degree.unwrap_or(0) < 4 { COLUMNS.0 } else { COLUMNS.1 }
+    }
 }
 
 /// Number of places that kinks may have.

@@ -1,13 +1,12 @@
 //! Degree, kinks and ridge of the nominal form, by blocks left out: the simplest that predicts about as well as the best.
 
-use acm_core::actuation::monomial_count;
 use rayon::prelude::*;
 
 use super::criteria::Criteria;
 use super::scan::{Losses, cross_validate, sum};
 use crate::fit::design::{design, inputs};
 use crate::fit::form::angles::{Sums, angles, sums};
-use crate::fit::form::{Form, Kinks, fits, fits_sums, most_kinks};
+use crate::fit::form::{Form, Kinks, Powers, fits_sums, most_kinks};
 use crate::fit::gram::Grams;
 use crate::fit::problem::Problem;
 use crate::fit::state::{Part, State};
@@ -18,19 +17,34 @@ const RIDGES: [f64; 3] = [1e-6, 1e-4, 1e-2];
 /// Highest degree of one actuator, and of several.
 const DEGREES: (usize, usize) = (4, 6);
 
-/// Returns the highest degree that is tried on a state.
-pub fn highest_degree(problem: &Problem, state: &State) -> usize {
+/// Returns the polynomial of the highest degree that is tried on a state.
+pub fn largest_polynomial(problem: &Problem, state: &State) -> Form {
+    let powers = interpolated(problem, state);
+    polynomial(highest_degree(problem, powers), powers)
+}
+
+/// Returns the highest degree that is tried with these powers.
+fn highest_degree(problem: &Problem, powers: Powers) -> usize {
     let actuators = problem.rig.actuators.len();
     let most = if actuators == 1 { DEGREES.0 } else { DEGREES.1 };
-    let degrees = 1..=most.min(interpolated(problem, state));
-    degrees.take_while(|&degree| fits(actuators, degree)).last().unwrap_or(0)
+    let degrees = 1..=largest(powers, actuators, most);
+    degrees.take_while(|&degree| polynomial(degree, powers).fits(actuators)).last().unwrap_or(0)
+}
+
+/// Returns the highest power of any actuator in a polynomial of a degree.
+fn largest(powers: Powers, actuators: usize, degree: usize) -> usize {
+    powers.highest(actuators, degree).into_iter().max().unwrap_or(0)
+}
+
+fn polynomial(degree: usize, powers: Powers) -> Form {
+    Form { degree: Some(degree), powers, ..Form::LINEAR }
 }
 
 /// Returns the forms with terms of angles beside a straight line: of joints that follow one another, and of every number of joints that
 /// a sum may have; none beside a base, whose correction is small, or where angles rest at one or two values.
 fn turning(problem: &Problem, state: &State) -> impl Iterator<Item = Form> {
     let (rig, actuators) = (problem.rig, problem.rig.actuators.len());
-    let most = if problem.base.is_none() && interpolated(problem, state) > 1 { angles(rig) } else { 0 };
+    let most = if problem.base.is_none() && fewest(problem, state) > 1 { angles(rig) } else { 0 };
     let fit = move |which: &Sums| fits_sums(actuators, sums(rig, *which).len());
     let chains = [Sums::Chain, Sums::Planar].into_iter().filter(move |_| most >= CHAIN);
     chains.chain((1..=most).map(Sums::UpTo)).filter(fit).map(|sums| Form { sums, ..Form::LINEAR })
@@ -42,11 +56,11 @@ const RIVAL: (usize, usize) = (10, 70);
 /// Returns the smallest sum of squares of a correction of any degree, left out: a static effect may be such a
 /// correction in disguise.
 pub fn most_flexible(problem: &Problem, state: &State) -> f64 {
-    let actuators = problem.rig.actuators.len();
-    let degrees = highest_degree(problem, state) + 1..=RIVAL.0.min(interpolated(problem, state));
-    let fits = |degree: &usize| monomial_count(actuators, *degree) <= RIVAL.1;
+    let (actuators, powers) = (problem.rig.actuators.len(), interpolated(problem, state));
+    let degrees = highest_degree(problem, powers) + 1..=largest(powers, actuators, RIVAL.0);
+    let fits = |degree: &usize| polynomial(*degree, powers).monomial_count(actuators) <= RIVAL.1;
     let of = |degree: usize| {
-        let form = Form { degree: Some(degree), ridge: RIDGES[0], ..state.form };
+        let form = Form { degree: Some(degree), powers, ridge: RIDGES[0], ..state.form };
         of_ridges(problem, &State { form, ..state.clone() })
     };
     let tried = degrees.take_while(fits).flat_map(of);
@@ -66,7 +80,7 @@ const MOVES: usize = 4;
 /// sensor of the absolute value. Kinks are evenly spaced, or each is where it predicts best beside those before, which then move.
 pub fn bent(problem: &Problem, state: &State, criteria: &Criteria) -> Option<(State, Losses)> {
     let actuators = problem.rig.actuators.len();
-    let most = most_kinks(actuators).min(interpolated(problem, state) - 1);
+    let most = most_kinks(actuators).min(fewest(problem, state) - 1);
     let with = |kinks: Kinks| State { form: Form { kinks, ..Form::LINEAR }, ..state.clone() };
     let mut forms: Vec<Kinks> = SPACED.into_iter().map(Kinks::spaced).filter(|kinks| kinks.count() <= most).collect();
     let best = |all: Vec<Kinks>| -> Option<(f64, Kinks)> {
@@ -95,14 +109,23 @@ const GAP: f64 = 0.25;
 /// Values of each trial that clusters are looked for in.
 const VALUES: usize = 500;
 
-/// Returns the largest degree that clusters of an actuator's values determine: their number less one. An effect on the inputs may fill
-/// the gaps between recorded values, as a lag does between steps.
-fn interpolated(problem: &Problem, state: &State) -> usize {
+/// Returns the powers that clusters of each actuator's values determine: up to their number less one. An effect on the inputs may fill the
+/// gaps between recorded values, as a lag does between steps.
+fn interpolated(problem: &Problem, state: &State) -> Powers {
+    Powers::up_to(&of_clusters(problem, state))
+}
+
+/// Returns the highest power that the clusters of every actuator determine.
+fn fewest(problem: &Problem, state: &State) -> usize {
+    of_clusters(problem, state).into_iter().min().unwrap_or(usize::MAX)
+}
+
+fn of_clusters(problem: &Problem, state: &State) -> Vec<usize> {
     let recorded = |s: usize| problem.series[s].record.actuators.clone();
-    let fewest = fewest_clusters(problem, recorded);
-    let fills = fewest.is_some() && state.effects.iter().any(|placed| placed.part() == Part::Input);
-    let fewest = if fills { fewest_clusters(problem, |s| inputs(problem, state, s)) } else { fewest };
-    fewest.map_or(usize::MAX, |clusters| clusters - 1)
+    let powers = powers(problem, recorded);
+    let is_limited = powers.iter().any(|power| *power < usize::MAX);
+    let fills = is_limited && state.effects.iter().any(|placed| placed.part() == Part::Input);
+    if fills { self::powers(problem, |s| inputs(problem, state, s)) } else { powers }
 }
 
 /// Returns the number of clusters of an actuator's values in a range.
@@ -111,17 +134,20 @@ pub(crate) fn clusters(mut values: Vec<f64>, range: f64) -> usize {
     1 + values.windows(2).filter(|pair| pair[1] - pair[0] > GAP * range).count()
 }
 
-/// Returns the smallest number of clusters of any actuator that has several; `values` are those of a trial.
-fn fewest_clusters(problem: &Problem, values: impl Fn(usize) -> Vec<Vec<f64>>) -> Option<usize> {
+/// Returns the highest power of each actuator that its clusters determine; `values` are those of a trial.
+fn powers(problem: &Problem, values: impl Fn(usize) -> Vec<Vec<f64>>) -> Vec<usize> {
     let trials: Vec<Vec<Vec<f64>>> = (0..problem.series.len()).map(values).collect();
     let of = |a: usize| {
         let few = |q: &Vec<Vec<f64>>| {
             let stride = q[a].len().div_ceil(VALUES).max(1);
             q[a].iter().step_by(stride).copied().collect::<Vec<f64>>()
         };
-        clusters(trials.iter().flat_map(few).collect(), 2.0 * problem.range[a].1)
+        match clusters(trials.iter().flat_map(few).collect(), 2.0 * problem.range[a].1) {
+            1 => usize::MAX,
+            clusters => clusters - 1,
+        }
     };
-    (0..problem.range.len()).map(of).filter(|clusters| *clusters > 1).min()
+    (0..problem.range.len()).map(of).collect()
 }
 
 /// Returns the state with the best form, and with each effect in the calibration trials or not.
@@ -180,15 +206,16 @@ const CHAIN: usize = 2;
 fn columns(problem: &Problem, form: Form) -> usize {
     let actuators = problem.rig.actuators.len();
     let further = actuators * form.kinks.count() + 2 * sums(problem.rig, form.sums).len();
-    form.degree.map_or(0, |degree| 1 + monomial_count(actuators, degree) + further)
+    form.degree.map_or(0, |_| 1 + form.monomial_count(actuators) + further)
 }
 
 /// Returns a state for every degree, and for its own kinks where it has some.
 fn options(problem: &Problem, state: &State) -> Vec<State> {
     let has_input = state.clock != 0.0 || state.effects.iter().any(|placed| placed.part() == Part::Input);
     let lowest = usize::from(has_input && problem.base.is_none());
-    let degrees = lowest..=highest_degree(problem, state).max(lowest);
-    let mut forms: Vec<Form> = degrees.map(|degree| Form { degree: Some(degree), ..Form::LINEAR }).collect();
+    let powers = interpolated(problem, state);
+    let degrees = lowest..=highest_degree(problem, powers).max(lowest);
+    let mut forms: Vec<Form> = degrees.map(|degree| polynomial(degree, powers)).collect();
     if problem.base.is_some() {
         forms.push(Form::GIVEN);
     }
@@ -207,6 +234,7 @@ mod tests {
 
     use super::*;
     use crate::fit::bench;
+    use crate::series::Series;
 
     /// Oracle: two recorded values determine a straight line; a lag passes through all between them.
     #[test]
@@ -217,9 +245,32 @@ mod tests {
         let problem = Problem::new(&rig, &series, &[1.0], None);
         let bare = State::bare(Form::LINEAR);
         let lagging = bare.with(bench::placed("actuator_lag", acm_core::effects::Carrier::Rig, &rig, &[0.5]));
-        assert_eq!([&bare, &lagging].map(|state| highest_degree(&problem, state)), [1, DEGREES.0]);
+        assert_eq!(
+            [&bare, &lagging].map(|state| highest_degree(&problem, interpolated(&problem, state))),
+            [1, DEGREES.0]
+        );
         let [bare, lagging] = [bare, lagging].map(|state| bent(&problem, &state, &Criteria::default()));
         assert!(bare.is_none() && lagging.is_some());
+    }
+
+    /// Oracle: T₅(a) has the fifth power of an actuator that moves; the three values at which b is held determine two powers of b.
+    #[test]
+    fn an_actuator_that_is_held_limits_its_own_powers_alone() {
+        let rig = bench::rig(&["a", "b"], &[], &["y"]);
+        let a: Vec<f64> = bench::time().iter().map(|t| (1.7 * t).cos()).collect();
+        let power = 3.0 * a.len() as f64;
+        let of = |held: f64| {
+            let y = bench::time().iter().map(|t| (5.0 * 1.7 * t).cos() + held).collect();
+            let record = Record::new(bench::time(), vec![a.clone(), vec![held; a.len()]], vec![], vec![]);
+            Series { block: (0..a.len()).map(|k| k / 200).collect(), ..bench::series(record, y) }
+        };
+        let series = [-1.0, 0.1, 1.0, -1.0, 0.1, 1.0].map(of);
+        let problem = Problem::new(&rig, &series, &[1.0], None);
+        let largest = largest_polynomial(&problem, &State::bare(Form::LINEAR));
+        let exponents = largest.monomials(2).unwrap().exponents().to_vec();
+        assert_eq!([0, 1].map(|q| exponents.iter().map(|e| e[q]).max().unwrap()), [DEGREES.1, 2]);
+        let (chosen, losses) = choose(&problem, &State::bare(Form::LINEAR), &Criteria::default());
+        assert!(chosen.form.degree == Some(5) && sum(&losses) < 1e-6 * power, "{:?} {}", chosen.form, sum(&losses));
     }
 
     /// Oracle: Chebyshev's T₉ is a polynomial of degree 9: one of degree 10 takes it up, and the forms that corrections may have

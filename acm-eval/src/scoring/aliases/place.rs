@@ -9,7 +9,7 @@ use acm_trace::fit::form::Form;
 use acm_trace::fit::problem::Problem;
 use acm_trace::fit::state::State;
 use acm_trace::prepared::{Prepared, prepare};
-use acm_trace::search::nuisance::highest_degree;
+use acm_trace::search::nuisance::largest_polynomial;
 use acm_trace::series::{Series, number_blocks};
 use acm_trace::trace::Options;
 
@@ -82,7 +82,7 @@ impl Place {
 
     /// Returns the nominal form with its correction.
     pub fn bare(problem: &Problem) -> State {
-        let degree = highest_degree(problem, &State::bare(Form::LINEAR)).clamp(1, DEGREE);
-        State::bare(Form { degree: Some(degree), ..Form::LINEAR })
+        let largest = largest_polynomial(problem, &State::bare(Form::LINEAR));
+        State::bare(Form { degree: largest.degree.map(|degree| degree.clamp(1, DEGREE)), ..largest })
     }
 }

@@ -3,7 +3,7 @@
 use acm_core::effects::instance::Instance;
 use acm_core::rig::Rig;
 
-use crate::fit::form::{Form, fits};
+use crate::fit::form::{Form, Powers};
 use crate::fit::problem::Problem;
 use crate::fit::state::{Part, Placed, State, part};
 
@@ -95,9 +95,9 @@ fn bent(problem: &Problem, state: &State, new: &Instance) -> Option<State> {
     let lasts =
         |new: &Instance| new.initial_guesses(problem.rig).first().is_some_and(|guess| new.memory(guess).is_some());
     let is_first = problem.base.is_none() && state.effects.is_empty() && part(new) == Part::Input && lasts(new);
-    let is_small = fits(problem.rig.actuators.len(), BENT);
-    (is_first && is_small && state.form.degree.unwrap_or(0) < BENT)
-        .then(|| State { form: Form { degree: Some(BENT), ..state.form }, ..state.clone() })
+    let form = Form { degree: Some(BENT), powers: Powers::ANY, ..state.form };
+    (is_first && form.fits(problem.rig.actuators.len()) && state.form.degree.unwrap_or(0) < BENT)
+        .then(|| State { form, ..state.clone() })
 }
 
 /// Returns the state with a straight line in the place of a constant.
