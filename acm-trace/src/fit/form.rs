@@ -22,11 +22,11 @@ use angles::Sums;
 pub use powers::Powers;
 
 /// Half ranges from the middle up to which a polynomial is extrapolated. Beyond it goes on straight: an input that an effect throws far
-/// out would be raised to the sixth power.
+/// out would be raised to the eighth power.
 pub const BEYOND: f64 = 1.25;
 
 /// Largest number of columns up to degree 3 and with kinks, and from degree 4 on.
-const COLUMNS: (usize, usize) = (90, 35);
+const COLUMNS: (usize, usize) = (90, 34);
 
 /// Returns the largest number of kinks of each of so many actuators.
 pub fn most_kinks(actuators: usize) -> usize {
