@@ -1,5 +1,6 @@
 //! Conversion of a search state to the model that is saved; both predict the same.
 
+use acm_core::actuation::Monomials;
 use acm_core::augmented::AugmentedModel;
 use acm_core::effects::instance::Instance;
 use acm_core::nominal::NominalModel;
@@ -137,7 +138,7 @@ fn polynomial(problem: &Problem, form: Form, fitted: &Projected) -> Response {
     let blank = Polynomial::fit(&DMatrix::zeros(1, actuators), &DMatrix::zeros(1, width), 1).polynomial;
     let bent = (degree > 1 || !form.kinks.is_empty() || form.sums != Sums::None).then(|| {
         let monomials = form.monomials(actuators);
-        let exponents = monomials.iter().flat_map(|monomials| monomials.exponents());
+        let exponents = monomials.iter().flat_map(Monomials::exponents);
         let powers: Vec<Vec<usize>> = exponents.skip(actuators).cloned().collect();
         // The map's own inputs are 1 at its borders.
         let scale = |j: usize| BEYOND.powi(powers[j].iter().sum::<usize>() as i32);

@@ -8,7 +8,7 @@ use acm_core::rig::Rig;
 
 use crate::case::{Case, Trial};
 use crate::fit::form::BEYOND;
-use crate::search::nuisance::clusters;
+use crate::search::nuisance::held::clusters;
 use crate::series::Series;
 
 /// The box of actuators that calibration trials cover.

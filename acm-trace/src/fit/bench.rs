@@ -31,6 +31,15 @@ pub fn time() -> Vec<f64> {
     (0..2000).map(|k| 0.01 * f64::from(k)).collect()
 }
 
+/// Returns the next of the numbers that are spread evenly over a width about zero, the same at each start.
+pub fn noise(width: f64) -> impl FnMut() -> f64 {
+    let mut state = 1u64;
+    move || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        width * ((state >> 11) as f64 / (1u64 << 53) as f64 - 0.5)
+    }
+}
+
 /// Returns a trial of which every sample is looked at and counts; `measured` is row by row.
 pub fn series(record: Record, measured: Vec<f64>) -> Series {
     let samples = record.samples();

@@ -102,12 +102,11 @@ mod tests {
     #[test]
     fn a_lag_that_depends_on_its_state_begins_behind_a_rest() {
         let rig = bench::rig(&["q"], &[], &["y"]);
-        let [tau, bend, noise] = [8.0, 0.9, 0.004];
+        let [tau, bend, width] = [8.0, 0.9, 0.004];
         let time = bench::time();
-        let (mut z, mut random, mut measured) = (0.8, 1u64, vec![]);
+        let (mut z, mut noise, mut measured) = (0.8, bench::noise(width), vec![]);
         for _ in &time {
-            random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            measured.push(3.0 * z + noise * ((random >> 11) as f64 / (1u64 << 53) as f64 - 0.5));
+            measured.push(3.0 * z + noise());
             z = (0..100).fold(z, |z, _| z + 1e-4 * (-0.6 - z) / (tau * (1.0 + bend * z)));
         }
         let q = DMatrix::from_fn(3, 1, |k, _| k as f64 - 1.0);
@@ -121,6 +120,6 @@ mod tests {
         let modes: Vec<Mode> = lag.instance.modes(&lag.theta).collect();
         let left = residual(&trial, &model.unwrap(), &modes, None, &[1.0]);
         let rms = (left.norm_squared() / time.len() as f64).sqrt();
-        assert!((rms / (noise / 12f64.sqrt()) - 1.0).abs() < 0.1, "{rms}");
+        assert!((rms / (width / 12f64.sqrt()) - 1.0).abs() < 0.1, "{rms}");
     }
 }

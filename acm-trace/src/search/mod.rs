@@ -12,11 +12,14 @@
 //! | [`scan`] | their cross-validated errors |
 //! | [`expand`] | all candidates of a state, the best refined |
 //! | [`accept`] | when one of them counts |
+//! | `accept::imitation` | when one stands for something else |
 //! | [`chance`] | what the best of them gains by chance, on residuals with random phases |
 //! | [`nuisance`] | degree and ridge of the nominal form |
+//! | `nuisance::held` | actuators that are held at a few values |
 //! | `smoothed` | what smoother actuators explain |
 //! | `scored`, `tried`, `step` | a search on its way, what it tries, what it tells |
 //! | [`select`] | the search itself |
+//! | `select::pairs` | effects that are proven beside a second one alone |
 //! | `settle` | drops, exchanges, splits and kinks at its end |
 //! | `settle::minor` | effects that predict better beside those that are named |
 //! | [`confidence`] | how often an effect is chosen again |

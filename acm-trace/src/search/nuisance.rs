@@ -1,15 +1,18 @@
 //! Degree, kinks and ridge of the nominal form, by blocks left out: the simplest that predicts about as well as the best.
 
+pub(crate) mod held;
+
 use rayon::prelude::*;
 
 use super::criteria::Criteria;
 use super::scan::{Losses, cross_validate, sum};
-use crate::fit::design::{design, inputs};
+use crate::fit::design::design;
 use crate::fit::form::angles::{Sums, angles, sums};
 use crate::fit::form::{Form, Kinks, Powers, fits_sums, most_kinks};
 use crate::fit::gram::Grams;
 use crate::fit::problem::Problem;
 use crate::fit::state::{Part, State};
+use held::{fewest, interpolated};
 
 /// Ridge parameters that are tried.
 const RIDGES: [f64; 3] = [1e-6, 1e-4, 1e-2];
@@ -103,53 +106,6 @@ pub fn bent(problem: &Problem, state: &State, criteria: &Criteria) -> Option<(St
     let tried: Vec<(State, Losses)> =
         forms.into_par_iter().flat_map_iter(|kinks| of_ridges(problem, &with(kinks))).collect();
     simplest(problem, tried, criteria)
-}
-
-/// Gap between recorded values of an actuator that separates two clusters, as a share of its range.
-const GAP: f64 = 0.25;
-
-/// Values of each trial that clusters are looked for in.
-const VALUES: usize = 500;
-
-/// Returns the powers that clusters of each actuator's values determine: up to their number less one. An effect on the inputs may fill the
-/// gaps between recorded values, as a lag does between steps.
-fn interpolated(problem: &Problem, state: &State) -> Powers {
-    Powers::up_to(&of_clusters(problem, state))
-}
-
-/// Returns the highest power that the clusters of every actuator determine.
-fn fewest(problem: &Problem, state: &State) -> usize {
-    of_clusters(problem, state).into_iter().min().unwrap_or(usize::MAX)
-}
-
-fn of_clusters(problem: &Problem, state: &State) -> Vec<usize> {
-    let recorded = |s: usize| problem.series[s].record.actuators.clone();
-    let powers = powers(problem, recorded);
-    let is_limited = powers.iter().any(|power| *power < usize::MAX);
-    let fills = is_limited && state.effects.iter().any(|placed| placed.part() == Part::Input);
-    if fills { self::powers(problem, |s| inputs(problem, state, s)) } else { powers }
-}
-
-/// Returns the number of clusters of an actuator's values in a range.
-pub(crate) fn clusters(mut values: Vec<f64>, range: f64) -> usize {
-    values.sort_by(f64::total_cmp);
-    1 + values.windows(2).filter(|pair| pair[1] - pair[0] > GAP * range).count()
-}
-
-/// Returns the highest power of each actuator that its clusters determine; `values` are those of a trial.
-fn powers(problem: &Problem, values: impl Fn(usize) -> Vec<Vec<f64>>) -> Vec<usize> {
-    let trials: Vec<Vec<Vec<f64>>> = (0..problem.series.len()).map(values).collect();
-    let of = |a: usize| {
-        let few = |q: &Vec<Vec<f64>>| {
-            let stride = q[a].len().div_ceil(VALUES).max(1);
-            q[a].iter().step_by(stride).copied().collect::<Vec<f64>>()
-        };
-        match clusters(trials.iter().flat_map(few).collect(), 2.0 * problem.range[a].1) {
-            1 => usize::MAX,
-            clusters => clusters - 1,
-        }
-    };
-    (0..problem.range.len()).map(of).collect()
 }
 
 /// Returns the state with the best form, and with each effect in the calibration trials or not.

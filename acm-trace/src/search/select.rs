@@ -1,9 +1,10 @@
 //! The search itself: a beam of sets that grow. The best of them is settled ([`settle`](super::settle)).
 
+mod pairs;
+
 use acm_core::rig::Rig;
 
-use super::accept::{Tested, least_t, paired_t, rests_on_bound};
-use super::candidates::new_in;
+use super::accept::{Tested, paired_t, rests_on_bound};
 use super::nuisance;
 use super::scan::Losses;
 use super::scored::{LEAST_FALL, key};
@@ -119,23 +120,6 @@ impl Search<'_, '_> {
         next
     }
 
-    /// Returns whether an effect is no chance beside a second, and no misfit of the nominal form: both together gain over blocks, it gains
-    /// more than the best candidate does by chance where both are, and a static map beside the second predicts worse.
-    fn proves(&mut self, first: &Unproven, both: &Tried) -> bool {
-        let together = paired_t(&first.losses, &both.losses);
-        together > least_t(first.losses.len(), self.criteria.level)
-            && (!first.is_imitated || self.is_needed_beside_a_map(&first.label, both))
-            && first.gain > self.by_chance(&first.without, &both.state)
-    }
-
-    /// Returns whether the others of a set predict worse beside the most flexible static map than all do without it.
-    fn is_needed_beside_a_map(&mut self, label: &str, all: &Tried) -> bool {
-        let Some(i) = new_in(label, &all.state, self.problem.rig) else { return false };
-        let (_, others, _) = self.settled(&all.state.without(i));
-        let map = self.with_map(&others);
-        all.score < self.score_of(map, &others)
-    }
-
     /// Compares the results of two searches of the same outputs, accepted where J falls.
     pub fn compared(&self, change: &str, from: &Selected, to: &Selected) -> Step {
         let score = |selected: &Selected| self.score(&selected.last_losses, &selected.last);
@@ -185,11 +169,7 @@ mod tests {
     fn a_first_effect_that_gains_in_few_blocks_is_proven_beside_a_second() {
         let rig = bench::rig(&["q"], &["c", "d"], &["y"]);
         let time: Vec<f64> = bench::time().into_iter().take(400).collect();
-        let mut random = 1u64;
-        let mut noise = || {
-            random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            0.3 * ((random >> 11) as f64 / (1u64 << 53) as f64 - 0.5)
-        };
+        let mut noise = bench::noise(0.3);
         let mut found = |moving: u32, share: f64| {
             let series: Vec<_> = (0..12)
                 .map(|trial| {
@@ -221,11 +201,7 @@ mod tests {
         let time: Vec<f64> = bench::time().into_iter().take(400).collect();
         let library = ["dead_zone", "saturation"].map(|name| bench::placed(name, Carrier::Rig, &rig, &[]).instance);
         let found = |y: &dyn Fn(f64) -> f64| {
-            let mut random = 1u64;
-            let mut noise = || {
-                random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-                0.02 * ((random >> 11) as f64 / (1u64 << 53) as f64 - 0.5)
-            };
+            let mut noise = bench::noise(0.02);
             let series: Vec<_> = (0..12)
                 .map(|trial| {
                     let q: Vec<f64> = time.iter().map(|t| (1.7 * t + f64::from(trial)).sin()).collect();

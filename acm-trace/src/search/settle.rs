@@ -218,11 +218,7 @@ mod tests {
         let c: Vec<f64> = time.iter().map(|t| (rate * t).sin()).collect();
         let w: Vec<f64> = time.iter().map(|t| 0.2 * (3.1 * t).sin()).collect();
         let e: Vec<f64> = (0..c.len()).map(|k| lagged(time[k]) - c[k] + w[k]).collect();
-        let mut random = 1u64;
-        let mut noise = || {
-            random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            0.02 * ((random >> 11) as f64 / (1u64 << 53) as f64 - 0.5)
-        };
+        let mut noise = bench::noise(0.02);
         let y: Vec<f64> = c.iter().zip(&e).map(|(c, e)| c + e + noise()).collect();
         let rig = bench::rig(&["q"], &["c", "e"], &["y"]);
         for (recorded, expected) in

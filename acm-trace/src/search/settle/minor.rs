@@ -57,11 +57,7 @@ mod tests {
     fn an_effect_too_small_to_be_named_is_minor() {
         let course = |rate: f64| -> Vec<f64> { bench::time().iter().map(|t| (rate * t).sin()).collect() };
         let (c, d) = (course(0.7), course(1.9));
-        let mut random = 1u64;
-        let mut noise = || {
-            random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            (random >> 11) as f64 / (1u64 << 53) as f64 - 0.5
-        };
+        let mut noise = bench::noise(1.0);
         let noise: Vec<f64> = (0..c.len()).map(|_| 0.1 * 12f64.sqrt() * noise()).collect();
         for (power, expected) in [(0.07, vec!["context_term(c)", "context_term(d)"]), (0.01, vec!["context_term(c)"])] {
             let size = 0.1 * (2.0_f64 * power).sqrt();

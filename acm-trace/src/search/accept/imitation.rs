@@ -1,0 +1,162 @@
+//! Candidates that stand for something else: for a misfit of the nominal form, for noise of encoders, or for an effect that another takes
+//! back.
+
+use acm_core::effects::Carrier;
+
+use crate::fit::moved::moved;
+use crate::fit::projected::project;
+use crate::fit::state::{Placed, State};
+use crate::search::nuisance;
+use crate::search::scan::{Losses, sum};
+use crate::search::scored::{Search, key};
+use crate::search::smoothed;
+use crate::search::tried::Tried;
+
+impl Search<'_, '_> {
+    /// Returns whether an effect moves the outputs by many times the error without effects, so that another has to
+    /// cancel it.
+    pub(super) fn cancels(&self, state: &State) -> bool {
+        if state.effects.len() < 2 {
+            return false;
+        }
+        let rows = self.problem.rows().max(1) as f64;
+        let most = self.criteria.cancelled * (self.first / rows).sqrt();
+        project(self.problem, state).is_none_or(|fitted| {
+            (0..state.effects.len()).any(|i| moved(self.problem, state, &fitted, i).norm() / rows.sqrt() > most)
+        })
+    }
+
+    /// Returns whether a static effect predicts no better than a static map with more freedom: then it stands for a
+    /// misfit of the nominal form. An effect without a shape, such as gravity at a joint, cannot imitate that.
+    pub(super) fn is_static_misfit(&mut self, state: &State, candidate: &Tried) -> bool {
+        let can_bend = |new: &Placed| is_function_of_actuators(new) && has_shape(new);
+        if !added(state, &candidate.state).is_some_and(can_bend) {
+            return false;
+        }
+        let map = self.with_map(state);
+        candidate.score >= self.score_of(map, state)
+    }
+
+    /// Returns whether the first effect stands for a misfit of the nominal form.
+    pub(super) fn is_nominal_misfit(&mut self, state: &State, losses: &Losses, candidate: &Tried) -> bool {
+        state.effects.is_empty() && self.helps_only_without_map(state, losses, &candidate.state)
+    }
+
+    /// Returns whether a set helps no more than a smaller one where both are beside a static map with more freedom, and
+    /// that map helps the smaller one: then the difference stands for a misfit of the nominal form.
+    pub(in crate::search) fn helps_only_without_map(
+        &mut self,
+        smaller: &State,
+        losses: &Losses,
+        larger: &State,
+    ) -> bool {
+        let map = self.with_map(smaller);
+        if map >= sum(losses) {
+            return false;
+        }
+        let both = self.with_map(larger);
+        self.score_of(both, larger) >= self.score_of(map, smaller)
+    }
+
+    /// Returns the sum of squares of a state beside the most flexible static map.
+    pub(in crate::search) fn with_map(&mut self, state: &State) -> f64 {
+        let problem = self.problem;
+        *self.rivals.entry(key(state, problem)).or_insert_with(|| nuisance::most_flexible(problem, state))
+    }
+
+    /// Returns whether a state predicts as well with smoother actuators as with the candidate: then the candidate
+    /// stands for noise of encoders.
+    pub(super) fn is_noise_of_encoders(&mut self, state: &State, candidate: &Tried) -> bool {
+        let problem = self.problem;
+        let loss = *self.smoothed.entry(key(state, problem)).or_insert_with(|| smoothed::smallest_loss(problem, state));
+        candidate.score >= self.score_of(loss, state)
+    }
+}
+
+/// Returns whether an effect depends on the actuators at the same instant alone.
+fn is_function_of_actuators(placed: &Placed) -> bool {
+    let (instance, traits) = (&placed.instance, placed.instance.effect().traits());
+    let on_context = matches!(instance.carrier(), Carrier::Context(_));
+    traits.is_static && !traits.is_carried && !on_context && instance.context().is_none()
+}
+
+/// Returns whether a parameter is free in which the outputs are not linear.
+fn has_shape(placed: &Placed) -> bool {
+    placed.instance.parameters().iter().any(|spec| spec.is_free() && !spec.linear)
+}
+
+/// Returns the effect of a state that another lacks.
+fn added<'s>(smaller: &State, larger: &'s State) -> Option<&'s Placed> {
+    let is_new = |placed: &&std::sync::Arc<Placed>| {
+        !smaller.effects.iter().any(|old| {
+            old.instance.effect().name() == placed.instance.effect().name()
+                && old.instance.carrier() == placed.instance.carrier()
+        })
+    };
+    larger.effects.iter().find(is_new).map(AsRef::as_ref)
+}
+
+#[cfg(test)]
+mod tests {
+    use acm_core::record::Record;
+
+    use super::*;
+    use crate::fit::bench;
+    use crate::fit::form::Form;
+    use crate::fit::problem::Problem;
+    use crate::search::criteria::Criteria;
+    use crate::search::scan::cross_validate;
+    use crate::search::scored::Trials;
+
+    fn search<'p, 'a>(problem: &'p Problem<'a>, criteria: &'p Criteria) -> Search<'p, 'a> {
+        Search::new(Trials { problem, quick: problem }, &[], criteria, 1, false)
+    }
+
+    /// Oracle: y = 8 c − 8 d with d = c + 0.1 cos 3t: each term moves y by 8/√2, which is ten times the root mean square
+    /// of y; of y = 0.8 cos 3t a term by itself is no more than y.
+    #[test]
+    fn effects_that_take_each_other_back_cancel() {
+        let rig = bench::rig(&["q"], &["c", "d"], &["y"]);
+        let slow: Vec<f64> = bench::time().into_iter().map(f64::sin).collect();
+        let fast: Vec<f64> = bench::time().iter().map(|t| 0.1 * (3.0 * t).cos()).collect();
+        let other = |share: f64| -> Vec<f64> { slow.iter().zip(&fast).map(|(s, f)| share * s + f).collect() };
+        let y: Vec<f64> = fast.iter().map(|f| -8.0 * f).collect();
+        let still = vec![vec![0.0; y.len()]];
+        for (share, cancel) in [(1.0, true), (0.0, false)] {
+            let record = Record::new(bench::time(), still.clone(), vec![slow.clone(), other(share)], vec![]);
+            let series = [bench::series(record, y.clone())];
+            let problem = Problem::new(&rig, &series, &[1.0], None);
+            let criteria = Criteria::default();
+            let mut search = search(&problem, &criteria);
+            search.first = y.iter().map(|y| y * y).sum();
+            let term = |c: usize| bench::placed("context_term", Carrier::Context(c), &rig, &[1.0]);
+            let state = State::bare(Form { degree: Some(0), ..Form::LINEAR }).with(term(0)).with(term(1));
+            assert_eq!(search.cancels(&state), cancel, "{share}");
+        }
+    }
+
+    /// Oracle: of y = T₆(q) + d/2, with Chebyshev's polynomial, the signal c = T₆(q) tells nothing that a map of degree 10 does
+    /// not; d is needed beside the map too.
+    #[test]
+    fn what_a_more_flexible_map_takes_up_is_no_effect() {
+        let rig = bench::rig(&["q"], &["c", "d"], &["y"]);
+        let q: Vec<f64> = bench::time().iter().map(|t| (1.7 * t).cos()).collect();
+        let map: Vec<f64> = bench::time().iter().map(|t| (6.0 * 1.7 * t).cos()).collect();
+        let other: Vec<f64> = bench::time().iter().map(|t| (4.1 * t).sin()).collect();
+        let y = map.iter().zip(&other).map(|(m, d)| m + 0.5 * d).collect();
+        let series = [bench::series(Record::new(bench::time(), vec![q], vec![map, other], vec![]), y)];
+        let problem = Problem::new(&rig, &series, &[1.0], None);
+        let criteria = Criteria::default();
+        let mut search = search(&problem, &criteria);
+        let bare = State::bare(Form::LINEAR);
+        let losses = cross_validate(&problem, &bare).unwrap();
+        search.first = sum(&losses);
+        let stands_for_misfit = [0, 1].map(|c| {
+            let state = bare.with(bench::placed("context_term", Carrier::Context(c), &rig, &[1.0]));
+            let losses_with = cross_validate(&problem, &state).unwrap();
+            assert!(search.score(&losses_with, &state) < search.score(&losses, &bare), "{c}");
+            search.helps_only_without_map(&bare, &losses, &state)
+        });
+        assert_eq!(stands_for_misfit, [true, false]);
+    }
+}
