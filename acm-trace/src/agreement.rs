@@ -66,7 +66,7 @@ mod tests {
     use crate::fit::form::Form;
     use crate::fit::problem::Base;
     use crate::search::criteria::Criteria;
-    use crate::search::select::{Search, Trials};
+    use crate::search::select::Search;
 
     /// The prediction q of three coordinates came with the data, and 3 q was measured. The regression corrects (1 + s) q by (2 − s) q
     /// and leaves nothing; the model scales the corrected prediction, (1 + s)(3 − s) q, and leaves (s² − 2 s) q.
@@ -106,7 +106,7 @@ mod tests {
     fn a_gain_that_the_saved_model_loses_is_none() {
         with_scaled(|problem, scaled, squares| {
             let criteria = Criteria { negligible: 1.0, ..Criteria::default() };
-            let mut search = Search::new(Trials { problem, quick: problem }, &[], &criteria, 1, false);
+            let mut search = Search::plain(problem, &[], &criteria);
             search.first = squares;
             let (scaled, bare) = (scaled(-0.4), State::bare(Form { ridge: 0.0, ..Form::LINEAR }));
             let is_better = |fall: f64| search.is_better_as_saved((-fall, &scaled), (0.0, &bare));

@@ -162,7 +162,7 @@ mod tests {
 
     use super::*;
     use crate::fit::bench;
-    use crate::fit::form::Kinks;
+    use crate::fit::form::{Kinks, Powers};
     use crate::fit::problem::Base;
     use crate::fit::state::Placed;
 
@@ -219,6 +219,28 @@ mod tests {
             (far[(2, 0)] - 2.0 * far[(1, 0)] + far[(0, 0)]).abs() < 1e-6 && far[(2, 0)].abs() < 30.0 * half,
             "{far}"
         );
+    }
+
+    /// Oracle: y = T₄(a) b, where b is held at two values: with and without a base the saved model says what the formula says.
+    #[test]
+    fn a_map_of_limited_powers_is_saved() {
+        let rig = bench::rig(&["a", "b"], &[], &["y"]);
+        let truth = |a: f64, b: f64| (8.0 * a.powi(4) - 8.0 * a * a + 1.0) * b;
+        let a: Vec<f64> = bench::time().into_iter().map(|t| (1.3 * t).cos()).collect();
+        let series = [-0.5, 1.0].map(|b| {
+            let y = a.iter().map(|a| truth(*a, b)).collect();
+            bench::series(Record::new(bench::time(), vec![a.clone(), vec![b; a.len()]], vec![], vec![]), y)
+        });
+        let zero = Polynomial::fit(&DMatrix::zeros(1, 2), &DMatrix::zeros(1, 1), 1).polynomial;
+        let at = [vec![-0.7, 0.2, 0.9], vec![-0.5, 1.0, 1.0]];
+        for base in [None, Some(Base { stands_for: &zero, strain: None })] {
+            let problem = Problem::new(&rig, &series, &[1.0], base);
+            let form = Form { degree: Some(5), powers: Powers::up_to(&[4, 1]), ridge: 1e-12, ..Form::LINEAR };
+            let model = Assembled::new(&problem, &State::bare(form)).unwrap().model();
+            let record = Record::new(vec![0.0, 1.0, 2.0], at.to_vec(), vec![], vec![]);
+            let said = model.predict(&record, base.map(|_| DMatrix::zeros(3, 1)).as_ref());
+            (0..3).for_each(|k| assert!((said[(k, 0)] - truth(at[0][k], at[1][k])).abs() < 1e-4, "{k}: {said}"));
+        }
     }
 
     /// Oracle: y = |q| − 2 q on −1 … 1, by a line and a kink in the middle. Without a base the lines go on; beside one the value at the end

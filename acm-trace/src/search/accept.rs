@@ -169,11 +169,6 @@ mod tests {
     use crate::fit::problem::Problem;
     use crate::fit::state::Placed;
     use crate::search::criteria::Criteria;
-    use crate::search::select::Trials;
-
-    fn search<'p, 'a>(problem: &'p Problem<'a>, criteria: &'p Criteria) -> Search<'p, 'a> {
-        Search::new(Trials { problem, quick: problem }, &[], criteria, 1, false)
-    }
 
     /// Oracle: by hand. A creep at its longest time stands for something else; beside it a play may still be found.
     #[test]
@@ -202,7 +197,7 @@ mod tests {
         let series = [bench::series(Record::new(bench::time(), vec![q], vec![], vec![]), y)];
         let problem = Problem::new(&rig, &series, &[1.0], None);
         let criteria = Criteria::default();
-        let search = search(&problem, &criteria);
+        let search = Search::plain(&problem, &[], &criteria);
         let bare = State::bare(Form::LINEAR);
         let losses = cross_validate(&problem, &bare).unwrap();
         let with = |name: &str, value: f64| bare.with(bench::placed(name, Carrier::Rig, &rig, &[value]));

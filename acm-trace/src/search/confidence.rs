@@ -281,7 +281,6 @@ mod tests {
     use crate::fit::problem::Problem;
     use crate::search::criteria::Criteria;
     use crate::search::scan::cross_validate;
-    use crate::search::select::Trials;
     use crate::series::Series;
 
     /// Returns a trial with y = q(t − 0.1 s), through a lag of 40 ms where that is asked for.
@@ -312,8 +311,7 @@ mod tests {
         let series = delayed(true);
         let problem = Problem::new(&rig, &series, &[1.0], None);
         let (library, criteria) = ([instance("dead_time", &rig), instance("actuator_lag", &rig)], Criteria::default());
-        let trials = Trials { problem: &problem, quick: &problem };
-        let mut search = Search::new(trials, &library, &criteria, 1, false);
+        let mut search = Search::plain(&problem, &library, &criteria);
         let bare = State::bare(Form::LINEAR);
         search.first = cross_validate(&problem, &bare).unwrap().iter().sum();
         let (_, last, losses) = search.settled(&bare.with(bench::placed("dead_time", Carrier::Rig, &rig, &[0.12])));
@@ -337,7 +335,7 @@ mod tests {
         let series = delayed(false);
         let problem = Problem::new(&rig, &series, &[1.0], None);
         let (library, criteria) = ([instance("dead_time", &rig), instance("actuator_lag", &rig)], Criteria::default());
-        let mut search = Search::new(Trials { problem: &problem, quick: &problem }, &library, &criteria, 1, false);
+        let mut search = Search::plain(&problem, &library, &criteria);
         let bare = State::bare(Form::LINEAR);
         let bare_losses = cross_validate(&problem, &bare).unwrap();
         search.first = bare_losses.iter().sum();
@@ -358,7 +356,7 @@ mod tests {
         let series = delayed(false);
         let problem = Problem::new(&rig, &series, &[1.0], None);
         let criteria = Criteria::default();
-        let mut search = Search::new(Trials { problem: &problem, quick: &problem }, &[], &criteria, 1, false);
+        let mut search = Search::plain(&problem, &[], &criteria);
         let bare = State::bare(Form::LINEAR);
         let losses = cross_validate(&problem, &bare).unwrap();
         search.first = losses.iter().sum();

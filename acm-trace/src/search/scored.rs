@@ -95,6 +95,12 @@ impl<'p, 'a> Search<'p, 'a> {
         }
     }
 
+    /// Returns a search on the same samples throughout, without a clock correction.
+    #[cfg(test)]
+    pub fn plain(problem: &'p Problem<'a>, library: &'p [Instance], criteria: &'p Criteria) -> Self {
+        Self::new(Trials { problem, quick: problem }, library, criteria, 1, false)
+    }
+
     /// Returns a search on other trials before its first step, with the same J.
     pub fn on<'o>(&self, problem: &'o Problem<'a>) -> Search<'o, 'a>
     where

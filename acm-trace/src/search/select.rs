@@ -183,8 +183,8 @@ mod tests {
                 .collect();
             let problem = Problem::new(&rig, &series, &[1.0], None);
             let library = [0, 1].map(|c| bench::placed("context_term", Carrier::Context(c), &rig, &[1.0]).instance);
-            let (criteria, trials) = (Criteria::default(), Trials { problem: &problem, quick: &problem });
-            let mut search = Search::new(trials, &library, &criteria, 1, false);
+            let criteria = Criteria::default();
+            let mut search = Search::plain(&problem, &library, &criteria);
             let bare = State::bare(Form { degree: Some(0), ..Form::LINEAR });
             search.run(&bare, None, |_| ()).last.labels(&rig)
         };
@@ -210,8 +210,8 @@ mod tests {
                 })
                 .collect();
             let problem = Problem::new(&rig, &series, &[1.0], None);
-            let (criteria, trials) = (Criteria::default(), Trials { problem: &problem, quick: &problem });
-            let mut search = Search::new(trials, &library, &criteria, 1, false);
+            let criteria = Criteria::default();
+            let mut search = Search::plain(&problem, &library, &criteria);
             search.run(&State::bare(Form::LINEAR), None, |_| ()).last.labels(&rig)
         };
         let cornered = |q: f64| (q.abs() - 0.25).clamp(0.0, 0.45).copysign(q);

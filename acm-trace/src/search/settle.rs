@@ -176,7 +176,6 @@ mod tests {
     use crate::fit::problem::Problem;
     use crate::fit::state::Placed;
     use crate::search::criteria::Criteria;
-    use crate::search::select::Trials;
 
     /// Oracle: y = c + e with e = c d + w. A size of c that depends on d takes up c d, and w stays; c and e together leave nothing.
     /// Where w is what is recorded in the place of e, it adds nothing, and the size goes on depending on d.
@@ -200,7 +199,7 @@ mod tests {
             let placed = Placed { instance: varied, theta, in_calibration: true };
             let bare = State::bare(Form { degree: Some(0), ..Form::LINEAR });
             let criteria = Criteria::default();
-            let mut search = Search::new(Trials { problem: &problem, quick: &problem }, &library, &criteria, 1, false);
+            let mut search = Search::plain(&problem, &library, &criteria);
             search.first = search.settled(&bare).2.iter().sum();
             let last = search.settled(&bare.with(placed));
             let split = search.split(last);
@@ -233,7 +232,7 @@ mod tests {
             *late.theta.last_mut().unwrap() = 1.0;
             let bare = State::bare(Form { degree: Some(0), ..Form::LINEAR });
             let criteria = Criteria::default();
-            let mut search = Search::new(Trials { problem: &problem, quick: &problem }, &library, &criteria, 1, false);
+            let mut search = Search::plain(&problem, &library, &criteria);
             search.first = search.settled(&bare).2.iter().sum();
             let last = search.settled(&bare.with(late));
             assert_eq!(search.split(last).1.labels(&rig), expected);

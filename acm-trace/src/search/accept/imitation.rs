@@ -106,11 +106,6 @@ mod tests {
     use crate::fit::problem::Problem;
     use crate::search::criteria::Criteria;
     use crate::search::scan::cross_validate;
-    use crate::search::scored::Trials;
-
-    fn search<'p, 'a>(problem: &'p Problem<'a>, criteria: &'p Criteria) -> Search<'p, 'a> {
-        Search::new(Trials { problem, quick: problem }, &[], criteria, 1, false)
-    }
 
     /// Oracle: y = 8 c − 8 d with d = c + 0.1 cos 3t: each term moves y by 8/√2, which is ten times the root mean square
     /// of y; of y = 0.8 cos 3t a term by itself is no more than y.
@@ -127,7 +122,7 @@ mod tests {
             let series = [bench::series(record, y.clone())];
             let problem = Problem::new(&rig, &series, &[1.0], None);
             let criteria = Criteria::default();
-            let mut search = search(&problem, &criteria);
+            let mut search = Search::plain(&problem, &[], &criteria);
             search.first = y.iter().map(|y| y * y).sum();
             let term = |c: usize| bench::placed("context_term", Carrier::Context(c), &rig, &[1.0]);
             let state = State::bare(Form { degree: Some(0), ..Form::LINEAR }).with(term(0)).with(term(1));
@@ -147,7 +142,7 @@ mod tests {
         let series = [bench::series(Record::new(bench::time(), vec![q], vec![map, other], vec![]), y)];
         let problem = Problem::new(&rig, &series, &[1.0], None);
         let criteria = Criteria::default();
-        let mut search = search(&problem, &criteria);
+        let mut search = Search::plain(&problem, &[], &criteria);
         let bare = State::bare(Form::LINEAR);
         let losses = cross_validate(&problem, &bare).unwrap();
         search.first = sum(&losses);

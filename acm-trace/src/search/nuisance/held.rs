@@ -11,23 +11,24 @@ const GAP: f64 = 0.25;
 /// Values of each trial that clusters are looked for in.
 const VALUES: usize = 500;
 
-/// Returns the powers that the values of each actuator determine. An effect on the inputs may fill the
-/// gaps between recorded values, as a lag does between steps.
+/// Returns the powers that the values of each actuator determine. An effect on the inputs may fill the gaps between recorded
+/// values, as a lag does between steps.
 pub fn interpolated(problem: &Problem, state: &State) -> Powers {
-    Powers::up_to(&of_clusters(problem, state))
+    Powers::up_to(&highest(problem, state))
 }
 
 /// Returns the highest power that the clusters of every actuator determine.
 pub fn fewest(problem: &Problem, state: &State) -> usize {
-    of_clusters(problem, state).into_iter().min().unwrap_or(usize::MAX)
+    highest(problem, state).into_iter().min().unwrap_or(usize::MAX)
 }
 
-fn of_clusters(problem: &Problem, state: &State) -> Vec<usize> {
+/// Returns the highest power of each actuator that its values determine.
+fn highest(problem: &Problem, state: &State) -> Vec<usize> {
     let recorded = |s: usize| problem.series[s].record.actuators.clone();
-    let powers = powers(problem, recorded);
-    let is_limited = powers.iter().any(|power| *power < usize::MAX);
+    let highest = determined(problem, recorded);
+    let is_limited = highest.iter().any(|power| *power < usize::MAX);
     let fills = is_limited && state.effects.iter().any(|placed| placed.part() == Part::Input);
-    if fills { self::powers(problem, |s| inputs(problem, state, s)) } else { powers }
+    if fills { determined(problem, |s| inputs(problem, state, s)) } else { highest }
 }
 
 /// Returns the number of clusters of an actuator's values in a range.
@@ -36,8 +37,8 @@ pub(crate) fn clusters(mut values: Vec<f64>, range: f64) -> usize {
     1 + values.windows(2).filter(|pair| pair[1] - pair[0] > GAP * range).count()
 }
 
-/// Returns the highest power of each actuator that its clusters determine; `values` are those of a trial.
-fn powers(problem: &Problem, values: impl Fn(usize) -> Vec<Vec<f64>>) -> Vec<usize> {
+/// Returns the same for given values of each trial: one less than their clusters, and no limit where there is a single cluster.
+fn determined(problem: &Problem, values: impl Fn(usize) -> Vec<Vec<f64>>) -> Vec<usize> {
     let trials: Vec<Vec<Vec<f64>>> = (0..problem.series.len()).map(values).collect();
     let of = |a: usize| {
         let few = |q: &Vec<Vec<f64>>| {

@@ -69,8 +69,7 @@ mod tests {
             let library: Vec<Instance> =
                 (0..2).map(|k| bench::placed("context_term", Carrier::Context(k), &rig, &[1.0]).instance).collect();
             let criteria = Criteria::default();
-            let trials = Trials { problem: &problem, quick: &problem };
-            let mut search = Search::new(trials, &library, &criteria, 1, false);
+            let mut search = Search::plain(&problem, &library, &criteria);
             let bare = State::bare(Form { degree: Some(0), ..Form::LINEAR });
             let bare_losses = cross_validate(&problem, &bare).unwrap();
             search.first = sum(&bare_losses);
