@@ -119,8 +119,7 @@ impl Fit {
 
 /// Least squares from `start` within `bounds`.
 pub fn fit(problem: &impl Residuals, start: &[f64], bounds: &Bounds, options: &Options) -> Fit {
-    let theta: Vec<f64> = (0..start.len()).map(|j| bounds.clamp(j, start[j])).collect();
-    let mut search = Search::new(problem, theta, bounds);
+    let mut search = Search::new(problem, start, bounds);
     let stopped = search.run(options);
     Fit {
         covariance: search.covariance(),
@@ -131,12 +130,21 @@ pub fn fit(problem: &impl Residuals, start: &[f64], bounds: &Bounds, options: &O
     }
 }
 
+/// The parameters that [`fit`] ends at, without their covariance, which takes the slopes once more.
+pub fn minimiser(problem: &impl Residuals, start: &[f64], bounds: &Bounds, options: &Options) -> Vec<f64> {
+    let mut search = Search::new(problem, start, bounds);
+    search.run(options);
+    search.theta
+}
+
 /// State of one fit.
 struct Search<'a, P: Residuals> {
     problem: &'a P,
     bounds: &'a Bounds,
     theta: Vec<f64>,
+    /// The cost at `theta`, and the rest where `is_reduced`.
     here: Reduced,
+    is_reduced: bool,
     scale: Vec<f64>,
     radius: f64,
     iterations: usize,
@@ -158,12 +166,22 @@ struct Trial {
 }
 
 impl<'a, P: Residuals> Search<'a, P> {
-    fn new(problem: &'a P, theta: Vec<f64>, bounds: &'a Bounds) -> Self {
+    fn new(problem: &'a P, start: &[f64], bounds: &'a Bounds) -> Self {
+        let theta: Vec<f64> = (0..start.len()).map(|j| bounds.clamp(j, start[j])).collect();
         let here = reduce(problem, &theta);
         let scale = vec![0.0; theta.len()];
-        let mut search = Self { problem, bounds, theta, here, scale, radius: 0.0, iterations: 0 };
+        let mut search = Self { problem, bounds, theta, here, is_reduced: true, scale, radius: 0.0, iterations: 0 };
         search.rescale();
         search
+    }
+
+    /// Computes the slopes where the last step led.
+    fn reduce(&mut self) {
+        if !self.is_reduced {
+            self.here = reduce(self.problem, &self.theta);
+            self.is_reduced = true;
+            self.rescale();
+        }
     }
 
     fn run(&mut self, options: &Options) -> StopReason {
@@ -176,6 +194,7 @@ impl<'a, P: Residuals> Search<'a, P> {
             if self.here.cost == 0.0 {
                 return StopReason::ExactFit;
             }
+            self.reduce();
             let free = self.free();
             if self.steepest_cosine(&free) <= options.gradient {
                 return StopReason::GradientConverged;
@@ -196,9 +215,7 @@ impl<'a, P: Residuals> Search<'a, P> {
             let accepted = trial.fall > 1e-4 * trial.expected && trial.fall > 0.0;
             let reason = self.verdict(&trial, options);
             if accepted {
-                self.theta = trial.theta;
-                self.here = reduce(self.problem, &self.theta);
-                self.rescale();
+                (self.theta, self.here.cost, self.is_reduced) = (trial.theta, trial.cost, false);
             }
             if accepted || reason.is_some() {
                 return reason;
@@ -296,7 +313,8 @@ impl<'a, P: Residuals> Search<'a, P> {
         self.here.cost.is_finite() && self.here.triangle.iter().all(|v| v.is_finite())
     }
 
-    fn covariance(&self) -> DMatrix<f64> {
+    fn covariance(&mut self) -> DMatrix<f64> {
+        self.reduce();
         let n = self.theta.len();
         let mut covariance = DMatrix::from_element(n, n, f64::NAN);
         let freedom = self.problem.rows() as f64 - n as f64;

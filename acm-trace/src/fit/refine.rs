@@ -4,21 +4,23 @@
 //! u = 1 + ln(θ/θ₀) for a parameter that has no sign, 1 + (θ − θ₀)/s for one that has;   min over u of ‖r(u)‖²
 //! ```
 //!
-//! Slopes are differences of the projected residual. Steps are those of [`acm_core::levenberg_marquardt`], which takes none that
+//! Slopes are those of the projected residual. Steps are those of [`acm_core::levenberg_marquardt`], which takes none that
 //! raises the sum of squares. Kaufman (1975), BIT 15.
 
-use std::ops::Range;
 use std::sync::Arc;
 
 use acm_core::effects::ParameterSpec;
-use acm_core::least_squares::Residuals;
-use acm_core::levenberg_marquardt::{Bounds, Options, fit};
+use acm_core::levenberg_marquardt::{Bounds, Options, minimiser};
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 
-use super::design::{keep_inputs, left};
+use super::design::left;
 use super::problem::Problem;
 use super::state::{Placed, State};
+
+mod residual;
+
+use residual::ProjectedResidual;
 
 pub use super::projected::{Projected, project};
 
@@ -126,64 +128,6 @@ pub(crate) fn put(state: &State, coordinates: &[Coordinate], u: &[f64]) -> State
     next
 }
 
-/// The projected residual as a least-squares problem: one sample with all residuals.
-struct ProjectedResidual<'r, 'a> {
-    problem: &'r Problem<'a>,
-    state: &'r State,
-    coordinates: Vec<Coordinate>,
-    rows: usize,
-}
-
-impl ProjectedResidual<'_, '_> {
-    fn at(&self, u: &[f64]) -> Vec<f64> {
-        let state = put(self.state, &self.coordinates, u);
-        match project(self.problem, &state) {
-            Some(projected) => projected.residual.as_slice().to_vec(),
-            None => vec![f64::NAN; self.rows],
-        }
-    }
-}
-
-impl Residuals for ProjectedResidual<'_, '_> {
-    fn parameters(&self) -> usize {
-        self.coordinates.len()
-    }
-
-    fn samples(&self) -> usize {
-        1
-    }
-
-    fn outputs(&self) -> usize {
-        self.rows
-    }
-
-    fn residuals(&self, theta: &[f64], _: Range<usize>, out: &mut [f64]) {
-        out.copy_from_slice(&self.at(theta));
-    }
-
-    fn slopes(&self, theta: &[f64], _: Range<usize>, out: &mut [f64], slopes: &mut DMatrix<f64>) {
-        // What acts before the effect that is moved stays as it is.
-        keep_inputs(self.problem, &put(self.state, &self.coordinates, theta));
-        let here = self.at(theta);
-        let moved: Vec<(Vec<f64>, f64)> = (0..self.coordinates.len())
-            .into_par_iter()
-            .map(|j| {
-                let step = self.coordinates[j].step_from(theta[j]);
-                let mut u = theta.to_vec();
-                u[j] += step;
-                (self.at(&u), step)
-            })
-            .collect();
-        for (mut column, (moved, step)) in slopes.column_iter_mut().zip(&moved) {
-            column.iter_mut().zip(moved.iter().zip(&here)).for_each(|(slope, (moved, here))| {
-                let difference = (moved - here) / step;
-                *slope = if difference.is_finite() { difference } else { 0.0 };
-            });
-        }
-        out.copy_from_slice(&here);
-    }
-}
-
 /// Returns the slopes of the outputs by the nonlinear parameters of a state, around coefficients β (p × M) of its
 /// regression.
 pub fn slopes(problem: &Problem, state: &State, beta: &DMatrix<f64>) -> Vec<DMatrix<f64>> {
@@ -214,17 +158,14 @@ pub fn refine(problem: &Problem, state: &State, iterations: usize) -> State {
     if coordinates.is_empty() || iterations == 0 {
         return state.clone();
     }
-    let Some(first) = project(problem, state) else { return state.clone() };
+    let Some(residual) = ProjectedResidual::new(problem, state, &coordinates) else { return state.clone() };
     let bounds = Bounds {
         lower: coordinates.iter().map(|c| c.at(c.lower)).collect(),
         upper: coordinates.iter().map(|c| c.at(c.upper)).collect(),
     };
-    let start = vec![1.0; coordinates.len()];
-    let rows = first.residual.len();
-    let problem = ProjectedResidual { problem, state, coordinates, rows };
     let options = Options { iterations, cost: LEAST_FALL, step: 1e-4, gradient: 1e-6, radius: RADIUS };
-    let ended = fit(&problem, &start, &bounds, &options);
-    put(state, &problem.coordinates, &ended.theta)
+    let start = vec![1.0; coordinates.len()];
+    put(state, &coordinates, &minimiser(&residual, &start, &bounds, &options))
 }
 
 #[cfg(test)]

@@ -15,7 +15,7 @@ use crate::fit::state::State;
 pub use super::tried::{Expansion, Tried};
 
 /// Largest number of steps of a refinement of one candidate, and of a set.
-const ITERATIONS: (usize, usize) = (5, 4);
+const ITERATIONS: (usize, usize) = (6, 5);
 
 /// Largest number of steps of a set on all samples.
 const POLISHED: usize = 10;

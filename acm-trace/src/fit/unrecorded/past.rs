@@ -7,7 +7,7 @@ use std::ops::Range;
 
 use acm_core::augmented::AugmentedModel;
 use acm_core::least_squares::Residuals;
-use acm_core::levenberg_marquardt::{Bounds, Options, fit};
+use acm_core::levenberg_marquardt::{Bounds, Options, minimiser};
 use acm_core::record::Record;
 use nalgebra::DMatrix;
 use rayon::prelude::*;
@@ -65,7 +65,7 @@ impl Past<'_> {
             }
         }
         let options = Options { iterations: ITERATIONS, ..Options::default() };
-        form(fit(&Sought { past: self, form }, &start, &Bounds { lower, upper }, &options).theta)
+        form(minimiser(&Sought { past: self, form }, &start, &Bounds { lower, upper }, &options))
     }
 
     /// Returns the sum of squares behind it.
