@@ -1,8 +1,8 @@
 //! What effects remember: operators on irregular time stamps, and where an effect keeps them between two pieces of a trial.
 //!
 //! Signals are straight between samples. Each operator is a small state that takes one sample after the other, and exact at
-//! the samples: one more sample on a straight piece changes nothing at the others. Three lags that are not linear have no closed
-//! form ([`StiffLag`], [`BentLag`], [`RootLag`]) and come as close as their order; derivatives look ahead ([`Derivatives`], [`Slopes`]).
+//! the samples: one more sample on a straight piece changes nothing at the others. Two lags that are not linear have no closed
+//! form ([`StiffLag`], [`VaryingLag`]) and come as close as their order; derivatives look ahead ([`Derivatives`], [`Slopes`]).
 
 mod beside;
 mod delay;
@@ -24,7 +24,7 @@ use std::{any::Any, fmt::Debug};
 pub use beside::pass;
 pub use delay::DelayLine;
 pub use derivatives::{Derivative, Derivatives};
-pub use first_order::{AsymmetricLag, BentLag, Decays, RootLag, StickLag};
+pub use first_order::{AsymmetricLag, Decays, StickLag, VaryingLag};
 pub use hysteresis::{BoucWen, LuGre, Play, play};
 pub use lag::{Decay, Lag, lag};
 pub use last::Last;

@@ -33,13 +33,17 @@ pub mod memory;
 mod oscillators;
 mod output;
 pub mod own;
+mod parameter;
 pub mod times;
+mod values;
 
 use serde::{Deserialize, Serialize};
 
 pub use crate::record::Record;
 pub use crate::rig::Rig;
 pub use memory::Memory;
+pub use parameter::ParameterSpec;
+pub use values::Values;
 
 /// Every effect that the tool knows, in the order in which they act.
 pub const ALL: &[&dyn Effect] = &[
@@ -136,102 +140,6 @@ impl Carrier {
     }
 }
 
-/// One parameter of an effect.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ParameterSpec {
-    /// Such as `width_q1`.
-    pub name: String,
-    /// SI.
-    pub unit: String,
-    /// The value at which the effect is silent (with all others at theirs).
-    pub neutral: f64,
-    /// A typical size: steps of differences and initial guesses are fractions of it.
-    pub scale: f64,
-    /// Smallest possible value.
-    pub lower: f64,
-    /// Largest possible value.
-    pub upper: f64,
-    /// Whether it may depend on a context signal, θ = θ0 + θ1·c: sizes of the effect may, shapes do not.
-    pub may_vary: bool,
-    /// Whether the effect only adds to the outputs and in proportion to it, y_m += Σ_j θ_j φ_j(t; other parameters), with
-    /// 0 as its neutral value. For θ1 of a context too.
-    pub linear: bool,
-    /// Whether the lower bound, and the upper one, is a limit that a rig reaches, as tendons do that don’t stretch: a value may rest there.
-    pub is_limit: [bool; 2],
-}
-
-impl ParameterSpec {
-    /// The size of an effect: silent at 0, unbounded until [`ParameterSpec::within`] is called, may vary with a context.
-    pub fn size(name: impl Into<String>, unit: impl Into<String>, scale: f64) -> Self {
-        Self {
-            name: name.into(),
-            unit: unit.into(),
-            neutral: 0.0,
-            scale: if scale.is_finite() { scale.max(SMALLEST_SCALE) } else { 1.0 },
-            lower: f64::NEG_INFINITY,
-            upper: f64::INFINITY,
-            may_vary: true,
-            linear: false,
-            is_limit: [false; 2],
-        }
-    }
-
-    /// The shape of an effect, such as a rate at which it fades: it rests at `value`, and does not vary with a context.
-    pub fn shape(name: impl Into<String>, unit: impl Into<String>, value: f64, scale: f64) -> Self {
-        Self { neutral: value, may_vary: false, ..Self::size(name, unit, scale) }
-    }
-
-    /// What the effect must know of the rig and no fit may change: both bounds at `value`, so that a saved effect keeps it.
-    pub fn known(name: impl Into<String>, unit: impl Into<String>, value: f64) -> Self {
-        Self { lower: value, upper: value, ..Self::shape(name, unit, value, value.abs()) }
-    }
-
-    /// Whether a fit may change it: a known value has both bounds at one place, and so has what an actuator at rest lacks.
-    pub fn is_free(&self) -> bool {
-        self.lower < self.upper
-    }
-
-    /// The nearest value within the bounds.
-    pub fn inside(&self, value: f64) -> f64 {
-        value.max(self.lower).min(self.upper)
-    }
-
-    /// Smallest and largest value along a trial in which the parameter depends on a context. A linear parameter has no
-    /// bounds there: its effect has to stay proportional to θ0 and θ1.
-    pub fn along(&self) -> [f64; 2] {
-        if self.linear { [f64::NEG_INFINITY, f64::INFINITY] } else { [self.lower, self.upper] }
-    }
-
-    /// Whether a value rests on a bound that is neither the neutral value nor a limit that rigs reach.
-    pub fn is_at_bound(&self, value: f64) -> bool {
-        let rests = |bound: f64| bound != self.neutral && (value - bound).abs() < AT_BOUND * self.scale;
-        self.is_free() && (rests(self.lower) && !self.is_limit[0] || rests(self.upper) && !self.is_limit[1])
-    }
-
-    /// With a lower bound that rigs reach.
-    #[must_use]
-    pub fn from_limit(self) -> Self {
-        Self { is_limit: [true, self.is_limit[1]], ..self }
-    }
-
-    /// With an upper bound that rigs reach.
-    #[must_use]
-    pub fn up_to_limit(self) -> Self {
-        Self { is_limit: [self.is_limit[0], true], ..self }
-    }
-
-    /// With bounds, which open to hold the neutral value where they would not.
-    pub fn within(self, lower: f64, upper: f64) -> Self {
-        Self { lower: lower.min(self.neutral), upper: upper.max(self.neutral), ..self }
-    }
-}
-
-/// How close to a bound a value rests on it, in typical sizes.
-const AT_BOUND: f64 = 1e-3;
-
-/// So that the parameter of a signal that does not move still has a scale to divide by.
-const SMALLEST_SCALE: f64 = 1e-30;
-
 /// How an unknown state at the start of a trial fades: e^{−t/τ}, or e^{−t/τ} cos ωt and e^{−t/τ} sin ωt.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Mode {
@@ -239,71 +147,6 @@ pub struct Mode {
     pub memory: f64,
     /// Frequency ω at which it swings, rad/s; 0 where it does not.
     pub frequency: f64,
-}
-
-/// Values of an effect's parameters along a trial.
-#[derive(Debug, Clone, Copy)]
-pub struct Values<'a> {
-    specs: &'a [ParameterSpec],
-    base: &'a [f64],
-    varying: Option<Varying<'a>>,
-}
-
-/// How values vary with a signal.
-#[derive(Debug, Clone, Copy)]
-struct Varying<'a> {
-    /// θ1 of every parameter.
-    slope: &'a [f64],
-    /// θ2 of every parameter, and the ends of the signal's range; none where values are straight in it.
-    bow: Option<(&'a [f64], [f64; 2])>,
-    /// c [T].
-    context: &'a [f64],
-}
-
-impl<'a> Values<'a> {
-    /// The same values at every sample.
-    pub fn constant(specs: &'a [ParameterSpec], base: &'a [f64]) -> Self {
-        Self { specs, base, varying: None }
-    }
-
-    /// θ0 + θ1·c(t), within the bounds of each parameter ([`ParameterSpec::along`]).
-    pub fn varying(specs: &'a [ParameterSpec], base: &'a [f64], slope: &'a [f64], context: &'a [f64]) -> Self {
-        Self { specs, base, varying: Some(Varying { slope, bow: None, context }) }
-    }
-
-    /// θ0 + θ1·c(t) + θ2 (c(t) − a)(c(t) − b), within the bounds of each parameter: θ0 and θ1 are those of the line through the values at
-    /// the ends a and b of the signal's range.
-    pub fn bowed(self, bow: &'a [f64], ends: [f64; 2]) -> Self {
-        Self { varying: self.varying.map(|varying| Varying { bow: Some((bow, ends)), ..varying }), ..self }
-    }
-
-    /// Number of parameters.
-    pub fn count(&self) -> usize {
-        self.specs.len()
-    }
-
-    /// Whether they are the same at every sample.
-    pub fn are_constant(&self) -> bool {
-        self.varying.is_none()
-    }
-
-    /// Largest value that parameter `j` may have along the trial.
-    pub fn largest(&self, j: usize) -> f64 {
-        if self.varying.is_some() { self.specs[j].along()[1] } else { self.base[j] }
-    }
-
-    /// Value of parameter `j` at sample `t`.
-    pub fn at(&self, j: usize, t: usize) -> f64 {
-        match self.varying {
-            None => self.base[j],
-            Some(Varying { slope, bow, context }) => {
-                let context = context.get(t).copied().unwrap_or(0.0);
-                let [lower, upper] = self.specs[j].along();
-                let bow = bow.map_or(0.0, |(bow, [a, b])| bow[j] * (context - a) * (context - b));
-                (self.base[j] + slope[j] * context + bow).max(lower).min(upper)
-            }
-        }
-    }
 }
 
 /// What sets an effect apart from most others, for whoever looks for it or draws it.

@@ -1,15 +1,14 @@
 //! Nonlinear parameters by variable projection: each evaluation solves for all linear parameters.
 //!
 //! ```text
-//! u = 1 + ln(θ/θ₀) for a parameter that has no sign, 1 + (θ − θ₀)/s for one that has;   min over u of ‖r(u)‖²
+//! min over u of ‖r(u)‖²
 //! ```
 //!
-//! Slopes are those of the projected residual. Steps are those of [`acm_core::levenberg_marquardt`], which takes none that
+//! The parameters are taken in coordinates u without unit ([`coordinates`]), and r is the projected residual ([`residual`]). Steps are those of [`acm_core::levenberg_marquardt`], which takes none that
 //! raises the sum of squares. Kaufman (1975), BIT 15.
 
 use std::sync::Arc;
 
-use acm_core::effects::ParameterSpec;
 use acm_core::levenberg_marquardt::{Bounds, Options, minimiser};
 use nalgebra::DMatrix;
 use rayon::prelude::*;
@@ -18,14 +17,13 @@ use super::design::left;
 use super::problem::Problem;
 use super::state::{Placed, State};
 
+mod coordinates;
 mod residual;
 
 use residual::ProjectedResidual;
 
 pub use super::projected::{Projected, project};
-
-/// Difference that slopes are taken from, in u; smaller for a resonance, and for an effect that is periodic in an actuator.
-const STEP: (f64, f64) = (0.02, 0.002);
+pub(crate) use coordinates::{Coordinate, Place, places, put};
 
 /// Steps of a resonance for each of another effect: its valley is narrow and bent.
 const RINGING: usize = 4;
@@ -35,98 +33,6 @@ const RADIUS: f64 = 0.7;
 
 /// Relative fall of the sum of squares below which a fit ends.
 const LEAST_FALL: f64 = 1e-4;
-
-/// A nonlinear parameter that a fit moves.
-#[derive(Debug, Clone, Copy)]
-pub(crate) enum Place {
-    /// Parameter `1` of effect `0`.
-    Effect(usize, usize),
-    /// Clock correction.
-    Clock,
-}
-
-/// Returns the nonlinear parameters of a state.
-pub(crate) fn places(state: &State) -> Vec<Place> {
-    let effects = state.effects.iter().enumerate();
-    let mut all: Vec<Place> =
-        effects.flat_map(|(i, placed)| placed.free().into_iter().map(move |j| Place::Effect(i, j))).collect();
-    all.extend((state.clock != 0.0).then_some(Place::Clock));
-    all
-}
-
-/// A coordinate without unit.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Coordinate {
-    place: Place,
-    start: f64,
-    lower: f64,
-    upper: f64,
-    /// Scale s of a parameter that has a sign; none for a logarithmic one.
-    scale: Option<f64>,
-    /// Difference that slopes are taken from.
-    step: f64,
-}
-
-impl Coordinate {
-    pub fn new(problem: &Problem, state: &State, place: Place) -> Self {
-        match place {
-            Place::Clock => {
-                let longest = problem.rig.duration / 3.0;
-                let scale = Some(problem.rig.step.max(f64::MIN_POSITIVE));
-                Self { place, start: state.clock, lower: 0.2 * problem.rig.step, upper: longest, scale, step: STEP.0 }
-            }
-            Place::Effect(i, j) => {
-                let (spec, start) = (&state.effects[i].instance.parameters()[j], state.effects[i].theta[j]);
-                let traits = state.effects[i].instance.effect().traits();
-                let step = if traits.is_periodic || traits.is_resonance { STEP.1 } else { STEP.0 };
-                let scale = (!is_positive(spec, start)).then_some(spec.scale);
-                Self { place, start, lower: spec.lower, upper: spec.upper, scale, step }
-            }
-        }
-    }
-
-    /// Returns θ at u.
-    pub fn value(&self, u: f64) -> f64 {
-        let value = match self.scale {
-            None => self.start * (u - 1.0).exp(),
-            Some(scale) => self.start + scale * (u - 1.0),
-        };
-        value.max(self.lower).min(self.upper)
-    }
-
-    /// Returns the difference that slopes at u are taken from: backwards on the upper bound.
-    pub fn step_from(&self, u: f64) -> f64 {
-        if self.value(u + self.step) == self.value(u) { -self.step } else { self.step }
-    }
-
-    /// Returns u at θ.
-    fn at(&self, value: f64) -> f64 {
-        match self.scale {
-            None => 1.0 + (value.max(f64::MIN_POSITIVE) / self.start).ln(),
-            Some(scale) => 1.0 + (value - self.start) / scale,
-        }
-    }
-}
-
-fn is_positive(spec: &ParameterSpec, value: f64) -> bool {
-    spec.lower >= 0.0 && value > 0.0
-}
-
-/// Returns a state with other values of some parameters.
-pub(crate) fn put(state: &State, coordinates: &[Coordinate], u: &[f64]) -> State {
-    let mut next = state.clone();
-    for (coordinate, u) in coordinates.iter().zip(u) {
-        match coordinate.place {
-            Place::Clock => next.clock = coordinate.value(*u),
-            Place::Effect(i, j) => {
-                let mut placed: Placed = (*next.effects[i]).clone();
-                placed.theta[j] = coordinate.value(*u);
-                next.effects[i] = Arc::new(placed);
-            }
-        }
-    }
-    next
-}
 
 /// Returns the slopes of the outputs by the nonlinear parameters of a state, around coefficients β (p × M) of its
 /// regression.
@@ -160,8 +66,8 @@ pub fn refine(problem: &Problem, state: &State, iterations: usize) -> State {
     }
     let Some(residual) = ProjectedResidual::new(problem, state, &coordinates) else { return state.clone() };
     let bounds = Bounds {
-        lower: coordinates.iter().map(|c| c.at(c.lower)).collect(),
-        upper: coordinates.iter().map(|c| c.at(c.upper)).collect(),
+        lower: coordinates.iter().map(|c| c.bounds()[0]).collect(),
+        upper: coordinates.iter().map(|c| c.bounds()[1]).collect(),
     };
     let options = Options { iterations, cost: LEAST_FALL, step: 1e-4, gradient: 1e-6, radius: RADIUS };
     let start = vec![1.0; coordinates.len()];

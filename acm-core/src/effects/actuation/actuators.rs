@@ -74,6 +74,28 @@ pub fn ends(rig: &Rig) -> impl Iterator<Item = ParameterSpec> + '_ {
     high.chain(rig.actuators.iter().map(move |q| known("low", q, q.low)))
 }
 
+/// Passes each actuator that has a range through a state of its own; `step` takes the sample's index and x, the actuator in half ranges
+/// from the middle, and returns what takes its place. [`ends`] follow the first `own` parameters.
+pub fn pass_in_range<S>(
+    values: Values,
+    own: usize,
+    columns: &mut [Vec<f64>],
+    states: &mut [S],
+    mut step: impl FnMut(&mut S, usize, f64) -> f64,
+) {
+    let count = columns.len();
+    for (j, (q, state)) in columns.iter_mut().zip(states).enumerate() {
+        let (middle, half) = middle_and_half(values, own, count, j);
+        if !is_range(middle, half) {
+            continue;
+        }
+        for (t, q) in q.iter_mut().enumerate() {
+            let x = (*q - middle) / half;
+            *q += half * (step(state, t, x) - x);
+        }
+    }
+}
+
 /// Middle of actuator `j`'s range and half its width, where [`ends`] follow the first `own` parameters.
 pub fn middle_and_half(values: Values, own: usize, count: usize, j: usize) -> (f64, f64) {
     let (high, low) = (values.at(own + j, 0), values.at(own + count + j, 0));

@@ -20,7 +20,7 @@ use acm_core::least_squares::Residuals;
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
-use super::{Coordinate, put};
+use super::coordinates::{Coordinate, put};
 use crate::fit::design::keep_inputs;
 use crate::fit::problem::Problem;
 use crate::fit::projected::project;

@@ -1,7 +1,7 @@
 //! Vessel with an outflow by Torricelli's law: the level that follows what flows in, and empties the slower the lower it is.
 //!
 //! ```text
-//! τ dz/dt = 2 (√(1 + κ x) − √(1 + κ z))/κ,   x = (q − m)/h,   q̃ = m + h z,   q̃(t_0) = q(t_0)
+//! τ dz/dt = 2 (√(1 + κ x) − √(1 + κ z))/κ = 2 (x − z)/(√(1 + κ x) + √(1 + κ z)),   x = (q − m)/h,   q̃ = m + h z,   q̃(t_0) = q(t_0)
 //! ```
 //!
 //! | symbol       | meaning                                                                      | unit            |
@@ -11,7 +11,7 @@
 //!
 //! With A dy/dt = w − c √y the inflow is given as the level x at which as much flows out, (w/c)²; the bottom is at z = −1/κ. Vessels that
 //! empty into one another are a chain of it, in which each level stands for its outflow. At κ = 0 it is `actuator_lag`. Second order in the
-//! time between samples ([`memory::RootLag`]). Seborg, Edgar, Mellichamp & Doyle (2016), Process Dynamics and Control, 4th ed., ch. 2.4.5
+//! time between samples ([`memory::VaryingLag`]). Seborg, Edgar, Mellichamp & Doyle (2016), Process Dynamics and Control, 4th ed., ch. 2.4.5
 //! (liquid storage systems).
 
 use crate::effects::actuation::actuators;
@@ -77,18 +77,14 @@ impl Effect for Outflow {
     }
 
     fn proceed(&self, _: Carrier, values: Values, record: &Record, memory: &mut Memory, columns: &mut [Vec<f64>]) {
-        let count = columns.len();
-        let lags = memory.states::<memory::RootLag>(count);
-        for (j, (q, lag)) in columns.iter_mut().zip(lags).enumerate() {
-            let (middle, half) = actuators::middle_and_half(values, OWN, count, j);
-            if !actuators::is_range(middle, half) {
-                continue;
-            }
-            for (t, (q, time)) in q.iter_mut().zip(&record.time).enumerate() {
-                let x = (*q - middle) / half;
-                *q += half * (lag.step(*time, x, values.at(0, t), values.at(1, t)) - x);
-            }
-        }
+        let lags = memory.states::<memory::VaryingLag>(columns.len());
+        actuators::pass_in_range(values, OWN, columns, lags, |lag, t, x| {
+            let bend = values.at(1, t);
+            lag.step(record.time[t], x, values.at(0, t), |x| {
+                let flows_in = root(x, bend);
+                move |z| 0.5 * (flows_in + root(z, bend))
+            })
+        });
     }
 
     fn memory(&self, values: Values) -> Option<f64> {
@@ -98,6 +94,14 @@ impl Effect for Outflow {
     fn second_memory(&self, values: Values) -> Option<f64> {
         (values.at(1, 0) > 0.0).then(|| values.at(0, 0) * (1.0 - values.at(1, 0)).sqrt())
     }
+}
+
+/// Smallest root: near the bottom a vessel empties in no time.
+const LEAST: f64 = 1e-6;
+
+/// √(1 + κz).
+fn root(z: f64, bend: f64) -> f64 {
+    (1.0 + bend * z).max(LEAST * LEAST).sqrt()
 }
 
 #[cfg(test)]
@@ -118,5 +122,16 @@ mod tests {
             let truth = (2.0 - t / 6.0).powi(2);
             assert!((level - truth).abs() < 1e-3, "{t}: {level} and {truth}");
         }
+    }
+
+    /// Steps of a thousand time constants land on what flows in, less what a ramp leaves behind; below the bottom it stays finite.
+    #[test]
+    fn long_steps_below_the_bottom_are_finite() {
+        let time: Vec<f64> = (0..100).map(f64::from).collect();
+        let inflow: Vec<f64> = (0..100).map(|n| if n % 2 == 0 { 1.0 } else { -3.0 }).collect();
+        let mut columns = vec![inflow.clone()];
+        let record = Record::new(time, columns.clone(), vec![], vec![]);
+        Outflow.act(Carrier::Rig, Values::constant(&[], &[1e-3, 0.98, 1.0, -1.0]), &record, &mut columns);
+        assert!(columns[0].iter().zip(&inflow).all(|(z, x)| (z - x).abs() < 0.01), "{:?}", columns[0]);
     }
 }

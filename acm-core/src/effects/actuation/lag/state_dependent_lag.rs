@@ -13,7 +13,7 @@
 //!
 //! So empties a tank, whose outflow follows Torricelli's law: linearised at a level, its τ grows with the level; and so follows the
 //! current of a coil whose iron saturates, the faster the larger it is: its inductance falls as 1/(1 + (i/i_s)²) to that of the air, ρ.
-//! At κ = λ = 0 it is `actuator_lag`. Second order in the time between samples ([`memory::BentLag`]). Seborg, Edgar, Mellichamp & Doyle (2016),
+//! At κ = λ = 0 it is `actuator_lag`. Second order in the time between samples ([`memory::VaryingLag`]). Seborg, Edgar, Mellichamp & Doyle (2016),
 //! Process Dynamics and Control, 4th ed., ch. 4; Fitzgerald, Kingsley & Umans (2003), Electric Machinery, 6th ed., 1.3 (saturation).
 
 use crate::effects::actuation::actuators;
@@ -81,18 +81,11 @@ impl Effect for StateDependentLag {
     }
 
     fn proceed(&self, _: Carrier, values: Values, record: &Record, memory: &mut Memory, columns: &mut [Vec<f64>]) {
-        let count = columns.len();
-        let lags = memory.states::<memory::BentLag>(count);
-        for (j, (q, lag)) in columns.iter_mut().zip(lags).enumerate() {
-            let (middle, half) = actuators::middle_and_half(values, OWN, count, j);
-            if !actuators::is_range(middle, half) {
-                continue;
-            }
-            for (t, (q, time)) in q.iter_mut().zip(&record.time).enumerate() {
-                let x = (*q - middle) / half;
-                *q += half * (lag.step(*time, x, values.at(0, t), [1, 2, 3].map(|k| values.at(k, t))) - x);
-            }
-        }
+        let lags = memory.states::<memory::VaryingLag>(columns.len());
+        actuators::pass_in_range(values, OWN, columns, lags, |lag, t, x| {
+            let bends = [1, 2, 3].map(|k| values.at(k, t));
+            lag.step(record.time[t], x, values.at(0, t), |_| move |z| pace(z.clamp(-1.0, 1.0), bends))
+        });
     }
 
     fn memory(&self, values: Values) -> Option<f64> {
@@ -104,6 +97,15 @@ impl Effect for StateDependentLag {
         let [slowest, fastest] = slowest_and_fastest(values);
         (fastest < slowest).then_some(fastest)
     }
+}
+
+/// Smallest 1 + κ z.
+const LEAST: f64 = 0.05;
+
+/// τ/τ0 at z.
+fn pace(z: f64, [bend, curve, floor]: [f64; 3]) -> f64 {
+    let even = 1.0 + curve.abs() * z * z;
+    floor + (1.0 - floor) * (1.0 + bend * z).max(LEAST) * if curve < 0.0 { 1.0 / even } else { even }
 }
 
 /// Largest and smallest τ of those at the ends and in the middle of the range.
