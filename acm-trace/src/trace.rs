@@ -19,7 +19,7 @@ use crate::prepared::Prepared;
 use crate::search::confidence::{Chosen, Kept, kept};
 use crate::search::criteria::Criteria;
 use crate::search::scan::{Losses, cross_validate};
-use crate::search::select::{self, Search, Selected, Trials, sum};
+use crate::search::select::{self, Found, Search, Selected, Trials, sum};
 use crate::series::Series;
 use crate::series::before::Before;
 use crate::series::stepwise::stepwise;
@@ -103,7 +103,8 @@ pub fn trace<'a>(
         // What acts inside trials shows once their offsets are out of the way.
         let (problem, quick) = (problem.with_offsets(share), quick.with_offsets(share));
         let mut search = search(prepared, options, Trials { problem: &problem, quick: &quick });
-        let selected = search.run(&start(prepared), found.as_ref(), &mut tell);
+        let selected =
+            search.run(&start(prepared), found.as_ref().map(|state| Found { state, losses: None }), &mut tell);
         let of = |state: &State| offsets_left(&problem.with_offsets(0.0), state);
         let at_first = || (pass == 0).then(|| of(&selected.bare)).flatten();
         let left = of(&selected.last).or_else(at_first).map_or(0.0, |offsets| offsets.share);
@@ -197,7 +198,8 @@ fn concluded<'a>(
     for (change, other) in others {
         let [problem, quick] = other.trials(prepared, joined, search.problem.offset_share);
         let mut again = self::search(prepared, options, Trials { problem: &problem, quick: &quick });
-        let found = again.run(&start(prepared), Some(&selected.last), &mut *tell);
+        let before = Found { state: &selected.last, losses: Some(&selected.last_losses) };
+        let found = again.run(&start(prepared), Some(before), &mut *tell);
         let compared = again.compared(&change, &selected, &found);
         tell(&compared);
         if compared.accepted {

@@ -8,14 +8,27 @@ pub fn slope(time: &[f64], values: &[f64]) -> Vec<f64> {
     (0..time.len()).map(|t| slope_at(time, values, t)).collect()
 }
 
+/// Samples of a line with all neighbours.
+const ALL: usize = 2 * REACH + 1;
+
 /// Slope at sample `t` alone.
 pub fn slope_at(time: &[f64], values: &[f64], t: usize) -> f64 {
-    let near = t.saturating_sub(REACH)..=(t + REACH).min(time.len() - 1);
-    let count = near.clone().count() as f64;
-    let mean_time = near.clone().map(|k| time[k]).sum::<f64>() / count;
-    let mean = near.clone().map(|k| values[k]).sum::<f64>() / count;
-    let spread: f64 = near.clone().map(|k| (time[k] - mean_time).powi(2)).sum();
-    let joint: f64 = near.map(|k| (time[k] - mean_time) * (values[k] - mean)).sum();
+    let near = t.saturating_sub(REACH)..(t + REACH + 1).min(time.len());
+    let (time, values) = (&time[near.clone()], &values[near]);
+    // Of a known number of samples the sums are unrolled.
+    match (<&[f64; ALL]>::try_from(time), <&[f64; ALL]>::try_from(values)) {
+        (Ok(time), Ok(values)) => line(time, values),
+        _ => line(time, values),
+    }
+}
+
+#[inline(always)]
+fn line(time: &[f64], values: &[f64]) -> f64 {
+    let count = time.len() as f64;
+    let mean_time = time.iter().sum::<f64>() / count;
+    let mean = values.iter().sum::<f64>() / count;
+    let spread: f64 = time.iter().map(|time| (time - mean_time).powi(2)).sum();
+    let joint: f64 = time.iter().zip(values).map(|(time, value)| (time - mean_time) * (value - mean)).sum();
     if spread > 0.0 { joint / spread } else { 0.0 }
 }
 

@@ -23,7 +23,7 @@ pub struct Criteria {
     pub level: f64,
     /// The same for a gain that is far above chance.
     pub few: f64,
-    /// Multiple of the largest gain by chance from which on a gain is far above it.
+    /// Number of largest gains by chance, one after another, that a gain far above chance exceeds.
     pub clear: f64,
     /// Probability that any candidate is accepted where none acts.
     pub family_wise: f64,
@@ -60,7 +60,7 @@ impl Default for Criteria {
             negligible: 1e-4,
             level: 0.01,
             few: 0.05,
-            clear: 5.0,
+            clear: 3.0,
             family_wise: 0.01,
             surrogates: 24,
             beam: 3,

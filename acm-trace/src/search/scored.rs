@@ -64,6 +64,8 @@ pub struct Search<'p, 'a> {
     pub(super) known: HashMap<Key, Scored>,
     /// Sets whose last effect chance or a static map may explain.
     pub(super) unproven: HashMap<Key, Unproven>,
+    /// Whether effects are exchanged for others; not where a set that was found before predicts these trials as it did those.
+    pub(super) exchanges: bool,
     pub(super) steps: Vec<Step>,
 }
 
@@ -91,6 +93,7 @@ impl<'p, 'a> Search<'p, 'a> {
             smoothed,
             known,
             unproven,
+            exchanges: true,
             steps: vec![],
         }
     }

@@ -37,9 +37,18 @@ impl Selected {
     }
 }
 
+/// A set that was found on trials that were taken otherwise.
+#[derive(Debug, Clone, Copy)]
+pub struct Found<'s> {
+    /// The set.
+    pub state: &'s State,
+    /// Its losses on those trials, where they compare with losses on these.
+    pub losses: Option<&'s Losses>,
+}
+
 impl Search<'_, '_> {
     /// Searches from a nominal form, or from a set that was found on these trials with other offsets.
-    pub fn run(&mut self, start: &State, found: Option<&State>, mut progress: impl FnMut(&Step)) -> Selected {
+    pub fn run(&mut self, start: &State, found: Option<Found>, mut progress: impl FnMut(&Step)) -> Selected {
         let (bare, bare_losses) = nuisance::choose(self.problem, start, self.criteria);
         self.first = sum(&bare_losses);
         let mut told = 0;
@@ -50,7 +59,7 @@ impl Search<'_, '_> {
         let first = (self.score(&bare_losses, &bare), bare.clone(), bare_losses.clone());
         let (mut beam, mut done) = match found {
             None => (vec![first], vec![]),
-            Some(found) => (vec![self.settled(found)], vec![first]),
+            Some(found) => (vec![self.found_again(found)], vec![first]),
         };
         for _ in 0..self.criteria.max_effects {
             let next = self.grow(&beam, &mut done);
@@ -70,6 +79,14 @@ impl Search<'_, '_> {
         tell(&self.steps);
         let (_, last, last_losses) = self.polished(settled.clone());
         Selected { bare, bare_losses, settled: (settled.1, settled.2), last, last_losses }
+    }
+
+    /// Returns a set that was found before with its values refined. Its effects are exchanged for others where J changes by a price or more.
+    fn found_again(&mut self, found: Found) -> Scored {
+        let settled = self.settled(found.state);
+        let change = found.losses.map(|losses| settled.0 - self.score(losses, found.state));
+        self.exchanges = change.is_none_or(|change| change.abs() >= self.criteria.price);
+        settled
     }
 
     /// Extends every set of the beam by each of its best candidates that passes; of sets that differ in what sizes
@@ -191,6 +208,33 @@ mod tests {
         assert_eq!(found(2, 1.0), ["context_term(c)", "context_term(d)"]);
         assert_eq!(found(2, 0.0), Vec::<String>::new());
         assert_eq!(found(3, 0.0), ["context_term(c)"]);
+    }
+
+    /// Oracle: by hand. A set that predicts other trials as it did the first keeps its effects, and only sets with one more are looked
+    /// at; where its error is no guide, or half of what it was, both of its effects are exchanged too.
+    #[test]
+    fn a_set_that_predicts_as_before_keeps_its_effects() {
+        let rig = bench::rig(&["q"], &["c", "d", "e"], &["y"]);
+        let course = |rate: f64| -> Vec<f64> { bench::time().iter().map(|t| (rate * t).sin()).collect() };
+        let (c, d, e) = (course(0.7), course(1.9), course(3.1));
+        let mut noise = bench::noise(0.1);
+        let y = c.iter().zip(&d).map(|(c, d)| c + d + noise()).collect();
+        let still = vec![0.0; c.len()];
+        let series = [bench::series(Record::new(bench::time(), vec![still], vec![c, d, e], vec![]), y)];
+        let problem = Problem::new(&rig, &series, &[1.0], None);
+        let library = [0, 1, 2].map(|c| bench::placed("context_term", Carrier::Context(c), &rig, &[1.0]).instance);
+        let criteria = Criteria::default();
+        let bare = State::bare(Form { degree: Some(0), ..Form::LINEAR });
+        let first = Search::plain(&problem, &library, &criteria).run(&bare, None, |_| ());
+        assert_eq!(first.last.labels(&rig), ["context_term(c)", "context_term(d)"]);
+        let expanded = |losses: Option<&Losses>| {
+            let mut again = Search::plain(&problem, &library, &criteria);
+            let found = again.run(&bare, Some(Found { state: &first.last, losses }), |_| ());
+            assert_eq!(found.last.labels(&rig), first.last.labels(&rig));
+            again.expanded.len()
+        };
+        let twice: Losses = first.last_losses.iter().map(|loss| 2.0 * loss).collect();
+        assert_eq!([Some(&first.last_losses), Some(&twice), None].map(expanded), [1, 3, 3]);
     }
 
     /// Oracle: y is q beyond a dead zone of 0.25 half ranges, cut off 0.7 on, beside noise. A polynomial takes up most of either corner,

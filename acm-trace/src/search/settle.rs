@@ -62,7 +62,7 @@ impl Search<'_, '_> {
                 if rest.0 < bar(&best) {
                     best = Some((rest.clone(), format!("− {name}")));
                 }
-                if last.1.effects.len() < 2 {
+                if last.1.effects.len() < 2 || !self.exchanges {
                     continue;
                 }
                 // Beside the others as they are: without the effect they would take over what they can of it.
@@ -88,6 +88,9 @@ impl Search<'_, '_> {
     /// Replaces a size that depends on a signal by a constant one and another effect, or a refinement by the simpler effect and another,
     /// where that predicts better: either may stand for two effects.
     fn split(&mut self, last: Scored) -> Scored {
+        if !self.exchanges {
+            return last;
+        }
         let mut best: Option<(Scored, String)> = None;
         for i in 0..last.1.effects.len() {
             let plain = || plainer(&last.1, i, self.library).map(|(_, plain)| plain);

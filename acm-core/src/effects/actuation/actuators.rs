@@ -76,22 +76,26 @@ pub fn ends(rig: &Rig) -> impl Iterator<Item = ParameterSpec> + '_ {
 
 /// Passes each actuator that has a range through a state of its own; `step` takes the sample's index and x, the actuator in half ranges
 /// from the middle, and returns what takes its place. [`ends`] follow the first `own` parameters.
-pub fn pass_in_range<S>(
+pub fn pass_in_range<'c, S>(
     values: Values,
     own: usize,
-    columns: &mut [Vec<f64>],
-    states: &mut [S],
+    columns: &'c mut [Vec<f64>],
+    states: &'c mut [S],
     mut step: impl FnMut(&mut S, usize, f64) -> f64,
 ) {
     let count = columns.len();
-    for (j, (q, state)) in columns.iter_mut().zip(states).enumerate() {
+    let with_range = |(j, (q, state)): (usize, (&'c mut Vec<f64>, &'c mut S))| {
         let (middle, half) = middle_and_half(values, own, count, j);
-        if !is_range(middle, half) {
-            continue;
-        }
-        for (t, q) in q.iter_mut().enumerate() {
-            let x = (*q - middle) / half;
-            *q += half * (step(state, t, x) - x);
+        is_range(middle, half).then_some((middle, half, q, state))
+    };
+    let mut passing: Vec<_> = columns.iter_mut().zip(states).enumerate().filter_map(with_range).collect();
+    // Sample by sample: steps of one column wait for one another, and those of several go on meanwhile.
+    for t in 0..passing.first().map_or(0, |(_, _, q, _)| q.len()) {
+        for (middle, half, q, state) in &mut passing {
+            if let Some(q) = q.get_mut(t) {
+                let x = (*q - *middle) / *half;
+                *q += *half * (step(state, t, x) - x);
+            }
         }
     }
 }

@@ -14,7 +14,7 @@
 //! actuators, Soft Robotics 8(2), for the times in which pressures rise and fall.
 
 use crate::effects::actuation::actuators;
-use crate::effects::memory::{AsymmetricLag as Follower, Decays};
+use crate::effects::memory::{AsymmetricLag as Follower, Decays, Last};
 use crate::effects::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, guesses, times};
 
 /// See the head of this file.
@@ -72,9 +72,9 @@ impl Effect for AsymmetricLag {
     ) {
         let lagging = actuators::acting(carrier, columns.len());
         let lags = memory.states::<Follower>(columns.len());
-        let mut decays = Decays::default();
+        let (mut decays, mut times) = (Decays::default(), Last::default());
         for (t, time) in record.time.iter().enumerate() {
-            let taus = up_and_down(values, t);
+            let taus = times.of([0, 1].map(|k| values.at(k, t)), || up_and_down(values, t));
             for (q, lag) in columns[lagging.clone()].iter_mut().zip(lags.iter_mut()) {
                 if let Some(q) = q.get_mut(t) {
                     *q = lag.step(*time, *q, taus, &mut decays);
