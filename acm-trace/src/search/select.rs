@@ -47,7 +47,7 @@ pub struct Found<'s> {
 }
 
 impl Search<'_, '_> {
-    /// Searches from a nominal form, or from a set that was found on these trials with other offsets.
+    /// Searches from a nominal form, or on from a set that was found before.
     pub fn run(&mut self, start: &State, found: Option<Found>, mut progress: impl FnMut(&Step)) -> Selected {
         let (bare, bare_losses) = nuisance::choose(self.problem, start, self.criteria);
         self.first = sum(&bare_losses);
