@@ -67,6 +67,7 @@ fn effects(rig: &Rig) -> Vec<Term> {
         ("measurement_lag", Carrier::Rig),
         ("measurement_drift", Carrier::Rig),
         ("output_hysteresis", Carrier::Actuator(0)),
+        ("output_bouc_wen", Carrier::Actuator(0)),
         ("dahl_friction", altitude),
         ("context_lag", altitude),
         ("misregistration", Carrier::Rig),

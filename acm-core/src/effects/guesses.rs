@@ -10,15 +10,23 @@ use super::{ParameterSpec, Rig};
 /// Smallest and largest length to start from, as shares of a travel, and how many.
 const LENGTHS: (f64, f64, usize) = (0.002, 0.8, 10);
 
+/// The same for presliding lengths, which may be as short as a step of a fine encoder.
+const PRESLIDING: (f64, f64, usize) = (2e-5, 0.8, 14);
+
 /// Points of the grid on which one actuator acts alone.
 const ALONE: usize = 4;
 
 /// Most actuators that are tried alone.
 const FEW: usize = 6;
 
-/// Plays, transitions and presliding lengths as shares of a travel.
+/// Plays and transitions as shares of a travel.
 pub fn lengths() -> Vec<f64> {
     spread(LENGTHS.0, LENGTHS.1, LENGTHS.2)
+}
+
+/// Presliding lengths as shares of a travel.
+pub fn presliding() -> Vec<f64> {
+    spread(PRESLIDING.0, PRESLIDING.1, PRESLIDING.2)
 }
 
 /// At most `count` of a grid, evenly, first and last among them.

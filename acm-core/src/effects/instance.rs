@@ -80,12 +80,14 @@ impl Instance {
         effect.carriers(rig).into_iter().map(|carrier| Instance::own(effect, carrier, rig)).collect()
     }
 
-    /// The same with θ = θ0 + θ1·c for each parameter that may vary; none where no parameter may, or c does not move.
+    /// The same with θ = θ0 + θ1·c for each parameter that may vary; none where no parameter may, c does not move, or c is the signal
+    /// that carries the effect, unless that follows a context at every moment, which then bends.
     pub fn with_context(&self, context: Carrier, rig: &Rig) -> Option<Instance> {
         let signal = context.signal(rig)?;
         let free = |j: &usize| self.specs[*j].may_vary && self.specs[*j].is_free();
         let varying: Vec<usize> = (0..self.specs.len()).filter(free).collect();
-        if varying.is_empty() || !signal.varies() || self.carrier == context {
+        let bends = self.effect().traits().is_static && matches!(context, Carrier::Context(_));
+        if varying.is_empty() || !signal.varies() || (self.carrier == context && !bends) {
             return None;
         }
         let slopes = varying.iter().map(|&j| {

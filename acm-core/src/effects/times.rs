@@ -86,7 +86,7 @@ pub fn window(rig: &Rig) -> ParameterSpec {
 
 /// Windows to start from, s.
 pub fn windows(rig: &Rig) -> Vec<f64> {
-    let (narrowest, widest) = (2.0 * step(rig), widest(rig));
+    let (narrowest, widest) = (4.0 * step(rig), widest(rig));
     if narrowest < widest { spread(narrowest, widest, WINDOWS) } else { vec![widest] }
 }
 

@@ -33,7 +33,7 @@ impl Derived {
         if kept.numbers > MOST {
             *kept = Kept::default();
         }
-        kept.numbers += 2 * found.len();
+        kept.numbers += 3 * found.len();
         kept.of.insert(key, found.clone());
         found
     }

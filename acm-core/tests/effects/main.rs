@@ -15,7 +15,7 @@ use acm_core::rig::Rig;
 use rigs::{Case, all, cases};
 
 /// Names that other programs read.
-const PROMISED: [&str; 52] = [
+const PROMISED: [&str; 53] = [
     "dead_time",
     "actuator_lag",
     "backlash",
@@ -68,6 +68,7 @@ const PROMISED: [&str; 52] = [
     "input_nonlinearity",
     "lugre_friction",
     "asymmetric_lag",
+    "output_bouc_wen",
 ];
 
 /// How many samples ahead an effect may see: a rate is the slope of a line through two on either side, or of a parabola
@@ -82,7 +83,8 @@ fn looks_ahead(case: &Case, values: &[f64]) -> usize {
 }
 
 /// Effects whose equations have no closed solution between two samples.
-const APPROXIMATE: [&str; 4] = ["nonlinear_stiffness", "coulomb_damping", "state_dependent_lag", "outflow"];
+const APPROXIMATE: [&str; 5] =
+    ["nonlinear_stiffness", "coulomb_damping", "state_dependent_lag", "outflow", "output_bouc_wen"];
 
 fn largest(columns: &[Vec<f64>]) -> f64 {
     columns.iter().flatten().fold(0.0, |most, x| x.abs().max(most))
@@ -169,7 +171,8 @@ fn starts_are_inside_and_not_neutral() {
 }
 
 /// Effects on the outputs that add in proportion to their sizes.
-const LINEAR: [&str; 11] = [
+const LINEAR: [&str; 12] = [
+    "output_bouc_wen",
     "output_hysteresis",
     "coulomb_friction",
     "dahl_friction",

@@ -25,7 +25,7 @@ fn planted(case: &Case) -> Vec<f64> {
     loudest.iter().zip(&case.specs).enumerate().map(shifted).collect()
 }
 
-/// Whether a record tells values near a guess: windows of more than a few samples, a breaking away that is not over between
+/// Whether a record tells values near a guess: windows of none or of more than a few samples, a breaking away that is not over between
 /// two of them, and no ringing that outlasts the guesses next to it: damping or dry friction end it.
 fn is_told(case: &Case, guess: &[f64]) -> bool {
     let value = |name: &str| case.specs.iter().position(|spec| spec.name == name).map(|j| guess[j]);
@@ -34,7 +34,7 @@ fn is_told(case: &Case, guess: &[f64]) -> bool {
         j.map_or(0.0, |j| case.starts.iter().map(|guess| guess[j]).fold(0.0, f64::max))
     };
     let is_braked = value("friction").is_some_and(|friction| friction == largest("friction"));
-    value("window").is_none_or(|window| window > 5.0 * case.scene.rig.step)
+    value("window").is_none_or(|window| window == 0.0 || window > 5.0 * case.scene.rig.step)
         && value("speed").is_none_or(|speed| speed == largest("speed"))
         && (value("hardness").is_none() || value("damping").is_none_or(|damping| damping > 0.5) || is_braked)
 }
@@ -63,7 +63,9 @@ fn misfit(case: &Case, theta: &[f64], target: &[Vec<f64>], sizes: &[f64]) -> DVe
 
 /// Damped Gauss–Newton steps on central differences, in units of each parameter's scale.
 fn fit(case: &Case, start: &[f64], target: &[Vec<f64>], sizes: &[f64]) -> (Vec<f64>, f64) {
-    let free: Vec<usize> = (0..start.len()).filter(|&j| case.specs[j].is_free()).collect();
+    // A window that smooths nothing stays so: a motion without noise hardly tells a narrow one from none.
+    let is_told = |j: &usize| case.specs[*j].is_free() && (case.specs[*j].name != "window" || start[*j] > 0.0);
+    let free: Vec<usize> = (0..start.len()).filter(is_told).collect();
     let (mut theta, mut damping) = (start.to_vec(), 1e-3);
     let mut residual = misfit(case, &theta, target, sizes);
     for _ in 0..200 {

@@ -23,7 +23,9 @@ fn every_effect_acts_as_in_rust() {
 #[test]
 fn rates_of_change_come_from_windows_of_any_width() {
     let rig = rig();
-    for name in ["coulomb_friction", "stribeck_friction", "viscous_friction", "inertia"] {
+    for name in
+        ["coulomb_friction", "stribeck_friction", "viscous_friction", "inertia", "lugre_friction", "output_bouc_wen"]
+    {
         for window in [0.0, 0.09, 0.4, 1.2] {
             let mut motion = term(name, Carrier::Actuator(0), &rig);
             *motion.values.last_mut().expect("a window") = window;

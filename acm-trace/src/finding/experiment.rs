@@ -45,6 +45,7 @@ const FAMILIES: &[Family] = &[
             "tendon_friction",
             "dry_friction",
             "output_hysteresis",
+            "output_bouc_wen",
             "coulomb_friction",
             "dahl_friction",
             "lugre_friction",

@@ -125,14 +125,15 @@ pub fn charging(time: &[f64], motion: &Motion, tau: f64, saturated: f64) -> Vec<
     })
 }
 
-/// Level of the lower of two vessels in a row, over a bottom at −1.05, by the midpoint rule: each empties by a rate times the root of its
-/// depth, and fills by the same of the one above. The motion is the level at which the inflow would hold the upper one.
+/// Level of the lower of two vessels in a row, by the midpoint rule: each empties by a rate times the root of its level, and fills by the
+/// same of the one above. The motion, and 1.05, is the root of the level at which the inflow would hold the upper one.
 pub fn emptied(time: &[f64], motion: &Motion, rates: [f64; 2]) -> Vec<f64> {
-    let flow = |level: f64| (level + 1.05).max(0.0).sqrt();
-    let start = motion.at(time[0]);
+    let flow = |q: f64| (q + 1.05).max(0.0);
+    let start = flow(motion.at(time[0])).powi(2);
     let levels = integrated(time, motion, [start; 2], |[upper, lower], from, to, h| {
         let speeds = |[upper, lower]: [f64; 2], above: f64| {
-            [rates[0] * (flow(above) - flow(upper)), rates[1] * (flow(upper) - flow(lower))]
+            let [upper, lower] = [upper, lower].map(|level: f64| level.max(0.0).sqrt());
+            [rates[0] * (flow(above) - upper), rates[1] * (upper - lower)]
         };
         let first = speeds([upper, lower], from);
         let middle = speeds([upper + 0.5 * h * first[0], lower + 0.5 * h * first[1]], 0.5 * (from + to));

@@ -14,7 +14,7 @@
 //! Robbins (2003), Power Electronics, ch. 7: the mean voltage of a switched bridge is the duty times the voltage of its supply.
 
 use crate::effects::output::carrying;
-use crate::effects::output::context_gain::{self, ContextGain};
+use crate::effects::output::context::context_gain::{self, ContextGain};
 use crate::effects::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values};
 use crate::rig::Signal;
 

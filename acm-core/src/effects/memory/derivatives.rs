@@ -1,7 +1,8 @@
-//! First and second derivative of a noisy signal on irregular time stamps: a parabola through a window around each sample.
+//! A noisy signal on irregular time stamps without its noise, and its first and second derivative: a parabola through a window around
+//! each sample.
 //!
 //! ```text
-//! min over a, b, c of Σ_k w_k (x_k − a − b τ_k − c τ_k²)²,   w_k = (1 − (τ_k/h)²)² where |τ_k| < h,   ẋ = b,   ẍ = 2c
+//! min over a, b, c of Σ_k w_k (x_k − a − b τ_k − c τ_k²)²,   w_k = (1 − (τ_k/h)²)² where |τ_k| < h,   x̃ = a,   ẋ = b,   ẍ = 2c
 //! ```
 //!
 //! | symbol | meaning                                   | unit |
@@ -14,7 +15,8 @@
 //!
 //! The window is cut off at the ends of what is known, so the newest sample of a stream has a past only, and its derivatives
 //! are about ten times as noisy. No window is narrower than 1.6 times the reach of the five samples nearest by index: that is
-//! what h = 0 means.
+//! what h = 0 means for the derivatives. The signal itself is as it was at h = 0, and on the way to the narrowest window as far
+//! between the two as h is.
 //!
 //! Linear in the number of samples: sums of powers run along blocks of one h, each about its own middle, so that they lose
 //! no more than two digits.
@@ -42,6 +44,8 @@ type Sums = [f64; POWERS + PRODUCTS];
 /// What a parabola has at the sample.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Derivative {
+    /// x̃, the signal without its noise.
+    pub value: f64,
     /// ẋ, per second.
     pub rate: f64,
     /// ẍ, per second².
@@ -110,9 +114,9 @@ impl Derivatives {
             let block = (window > 0.0).then(|| self.block_of(t, window));
             let found = match block.filter(|_| narrowest > 0.0 && window >= narrowest) {
                 Some(block) => self.fitted(t, window, block),
-                None => near(&self.time, &self.x, t, narrowest),
+                None => near(&self.time, &self.x, t, narrowest, window.max(0.0)),
             };
-            let line = || Derivative { rate: slope_at(&self.time, &self.x, t), acceleration: 0.0 };
+            let line = || Derivative { value: self.x[t], rate: slope_at(&self.time, &self.x, t), acceleration: 0.0 };
             self.found.push(found.unwrap_or_else(line));
         }
         self.forget();
@@ -143,8 +147,11 @@ impl Derivatives {
         self.block = Some(block);
         let (before, until) = (&self.sums[low - block.from], &self.sums[high - block.from]);
         let sums: Sums = std::array::from_fn(|k| until[k] - before[k]);
-        parabola(&weighted(&sums, (now - block.start) / h - 0.5))
-            .map(|[rate, bend]| Derivative { rate: rate / h, acceleration: 2.0 * bend / (h * h) })
+        parabola(&weighted(&sums, (now - block.start) / h - 0.5)).map(|[value, rate, bend]| Derivative {
+            value: block.x + value,
+            rate: rate / h,
+            acceleration: 2.0 * bend / (h * h),
+        })
     }
 
     /// A new block whose first sample is `t`.
@@ -190,7 +197,7 @@ impl Derivatives {
     }
 
     fn make_room(&mut self, window: f64) {
-        let room = 16 + (6.0 * FASTEST * window.clamp(0.0, 60.0)) as usize;
+        let room = 5 * NEAR + (6.0 * FASTEST * window.clamp(0.0, 60.0)) as usize;
         if self.time.capacity() < room {
             self.time.reserve(room - self.time.len());
             self.x.reserve(room - self.x.len());
@@ -221,15 +228,16 @@ fn shift(moments: &mut [f64], centre: f64) {
     }
 }
 
-/// b and c by normal equations; none where the samples do not tell them.
-fn parabola(s: &[f64; 8]) -> Option<[f64; 2]> {
+/// a, b and c by normal equations; none where the samples do not tell them.
+fn parabola(s: &[f64; 8]) -> Option<[f64; 3]> {
     // Without the mean: [t2, t3; t3, t4] (b, c) = (y1, y2).
     let mean = [s[1] / s[0], s[2] / s[0]];
     let (t2, t3, t4) = (s[2] - mean[0] * s[1], s[3] - mean[1] * s[1], s[4] - mean[1] * s[2]);
     let (y1, y2) = (s[6] - mean[0] * s[5], s[7] - mean[1] * s[5]);
     let determinant = t2 * t4 - t3 * t3;
     let told = s[0] > 0.0 && determinant > 1e-9 * t2 * t4;
-    told.then(|| [(t4 * y1 - t3 * y2) / determinant, (t2 * y2 - t3 * y1) / determinant])
+    let [b, c] = [(t4 * y1 - t3 * y2) / determinant, (t2 * y2 - t3 * y1) / determinant];
+    told.then(|| [s[5] / s[0] - b * mean[0] - c * mean[1], b, c])
 }
 
 /// The narrowest window of sample `t`, s.
@@ -239,8 +247,8 @@ fn narrowest(time: &[f64], t: usize) -> f64 {
     NARROWEST * (time[last] - time[t]).max(time[t] - time[first])
 }
 
-/// The parabola of a narrow window, sample by sample.
-fn near(time: &[f64], x: &[f64], t: usize, h: f64) -> Option<Derivative> {
+/// The parabola of a narrowest window h, sample by sample, where the one `asked` for is narrower.
+fn near(time: &[f64], x: &[f64], t: usize, h: f64, asked: f64) -> Option<Derivative> {
     let mut s = [0.0; 8];
     for k in t.saturating_sub(NEAR)..(t + NEAR + 1).min(time.len()) {
         let (u, y) = ((time[k] - time[t]) / h, x[k] - x[t]);
@@ -248,7 +256,11 @@ fn near(time: &[f64], x: &[f64], t: usize, h: f64) -> Option<Derivative> {
         let powers = [1.0, u, u * u, u * u * u, u * u * u * u, y, y * u, y * u * u];
         s.iter_mut().zip(powers).for_each(|(s, power)| *s += weight * power);
     }
-    parabola(&s).map(|[rate, bend]| Derivative { rate: rate / h, acceleration: 2.0 * bend / (h * h) })
+    parabola(&s).map(|[value, rate, bend]| Derivative {
+        value: x[t] + (asked / h).min(1.0) * value,
+        rate: rate / h,
+        acceleration: 2.0 * bend / (h * h),
+    })
 }
 
 #[cfg(test)]
@@ -268,6 +280,7 @@ mod tests {
             let found = Derivatives::default().of(&time, &x, window).to_vec();
             for (k, (t, found)) in time.iter().zip(&found).enumerate() {
                 let rate = -40.0 + 6.0 * (t - 1e4);
+                assert!((found.value - x[k]).abs() < 1e-6, "{window} s, sample {k}: {found:?}, {}", x[k]);
                 assert!((found.rate - rate).abs() < 1e-5, "{window} s, sample {k}: {found:?}, {rate}");
                 assert!((found.acceleration - 6.0).abs() < 2e-2, "{window} s, sample {k}: {found:?}");
             }
@@ -295,6 +308,7 @@ mod tests {
                 let y = nalgebra::Vector3::from_fn(|i, _| sum(i as i32, 1));
                 let exact = m.lu().solve(&y).unwrap();
                 let scale = 1.0 + exact.y.abs().max(exact.z.abs());
+                assert!((found.value - exact.x).abs() < 1e-8 * scale, "{h}: {found:?} {exact}");
                 assert!((found.rate - exact.y).abs() < 1e-8 * scale, "{h}: {found:?} {exact}");
                 assert!((found.acceleration - 2.0 * exact.z).abs() < 1e-7 * scale, "{h}: {found:?} {exact}");
             }
@@ -323,7 +337,10 @@ mod tests {
             for time in [vec![5.0; 12], (0..12).map(|k| 1e9 + f64::from(k / 3)).collect(), vec![3.0, 2.0, 9.0, 1.0]] {
                 let x: Vec<f64> = (0..time.len()).map(|k| k as f64).collect();
                 let found = Derivatives::default().of(&time, &x, window).to_vec();
-                assert!(found.iter().all(|d| d.rate.is_finite() && d.acceleration.is_finite()), "{window}: {found:?}");
+                assert!(
+                    found.iter().all(|d| [d.value, d.rate, d.acceleration].iter().all(|x| x.is_finite())),
+                    "{window}: {found:?}"
+                );
             }
         }
     }
@@ -335,7 +352,8 @@ mod tests {
         let x: Vec<f64> = (0..60).map(|k| (0.9 * f64::from(k)).sin()).collect();
         let at = |h: f64| Derivatives::default().of(&time, &x, h).to_vec();
         let off = |a: Vec<Derivative>, b: Vec<Derivative>| {
-            a.iter().zip(&b).map(|(a, b)| (a.rate - b.rate).abs()).fold(0.0f64, f64::max)
+            let apart = |(a, b): (&Derivative, &Derivative)| (a.rate - b.rate).abs().max((a.value - b.value).abs());
+            a.iter().zip(&b).map(apart).fold(0.0f64, f64::max)
         };
         for k in 0..400 {
             let h = 0.02 * f64::from(k);
@@ -358,7 +376,7 @@ mod tests {
             }
             assert!(stream.time.len() < 20 + (8.0 * h / 0.05) as usize, "{} are kept", stream.time.len());
             stream.restart();
-            assert_eq!(stream.of(&[0.0], &[3.0], h), [Derivative::default()]);
+            assert_eq!(stream.of(&[0.0], &[3.0], h), [Derivative { value: 3.0, ..Derivative::default() }]);
         }
     }
 }

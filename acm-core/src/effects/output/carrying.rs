@@ -1,6 +1,6 @@
 //! What effects that a signal carries share: the signal, its derivatives and range, and one size for each output.
 
-use crate::effects::memory::{Derivative, Derivatives};
+use crate::effects::memory::{Derivative, Derivatives, State};
 use crate::effects::{Carrier, Memory, ParameterSpec, Record, Rig, Values, guesses, times};
 use crate::rig::Signal;
 
@@ -58,6 +58,55 @@ pub fn derivative<'m>(
     column.clear();
     column.extend(states.first_mut()?.of(&record.time, signal, window).iter().map(of));
     Some(column)
+}
+
+/// What `step` makes, with a state of its own, of one sample after another of the carrier's signal: of its index, and of the parabola through
+/// a window of half a width of `window`, s.
+pub fn following<'m, S: State>(
+    record: &Record,
+    carrier: Carrier,
+    window: f64,
+    memory: &'m mut Memory,
+    mut step: impl FnMut(&mut S, usize, &Derivative) -> f64,
+) -> Option<&'m [f64]> {
+    let signal = signal(record, carrier)?;
+    let is_whole = memory.is_whole();
+    let (states, column) = memory.states_and_column::<Follower<S>>(1);
+    let Follower { derivatives, state } = states.first_mut()?;
+    column.clear();
+    if is_whole {
+        let smooth = record.derived.of(&record.time, signal, window);
+        column.extend(smooth.iter().enumerate().map(|(t, d)| step(state, t, d)));
+    } else {
+        let smooth = derivatives.of(&record.time, signal, window);
+        column.extend(smooth.iter().enumerate().map(|(t, d)| step(state, t, d)));
+    }
+    Some(column)
+}
+
+/// A state that follows the parabolas through a signal.
+#[derive(Debug, Default)]
+struct Follower<S> {
+    derivatives: Derivatives,
+    state: S,
+}
+
+impl<S: State> Clone for Follower<S> {
+    fn clone(&self) -> Self {
+        Self { derivatives: self.derivatives.clone(), state: self.state.clone() }
+    }
+
+    fn clone_from(&mut self, other: &Self) {
+        self.derivatives.clone_from(&other.derivatives);
+        self.state.clone_from(&other.state);
+    }
+}
+
+impl<S: State> State for Follower<S> {
+    fn restart(&mut self) {
+        self.derivatives.restart();
+        self.state.restart();
+    }
 }
 
 /// Sizes at their scales, with each window of a derivative and each of these shares of a typical speed: the last two parameters.

@@ -19,6 +19,9 @@ use crate::effects::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, 
 /// See the head of this file.
 pub struct DahlFriction;
 
+/// Shortest presliding length as a share of the signal's range, below a step of an encoder of 16 bits.
+pub(super) const SHORTEST: f64 = 1e-5;
+
 impl Effect for DahlFriction {
     fn name(&self) -> &'static str {
         "dahl_friction"
@@ -48,14 +51,14 @@ impl Effect for DahlFriction {
         let (unit, width) = carrying::range(rig, carrier);
         let mut specs = carrying::sizes(rig, "friction", "1", 1.0, 20.0);
         let presliding = ParameterSpec::shape("presliding", unit, width / 200.0, width / 200.0);
-        specs.push(presliding.within(width / 2000.0, width));
+        specs.push(presliding.within(SHORTEST * width, width));
         specs
     }
 
     fn initial_guesses(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
         let (specs, width) = (self.parameters(rig, carrier), carrying::range(rig, carrier).1);
         let presliding = |share: f64| guesses::guess_with(&specs, 1.0, specs.len() - 1, share * width);
-        guesses::lengths().into_iter().map(presliding).collect()
+        guesses::presliding().into_iter().map(presliding).collect()
     }
 
     fn proceed(

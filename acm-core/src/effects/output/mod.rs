@@ -1,17 +1,16 @@
 //! Effects on the outputs that a signal carries, such as friction, inertia and temperature.
 //!
-//! Delay, filters and drift of the instrument are in [`measurement`].
+//! Delay, filters and drift of the instrument are in [`measurement`], what follows a temperature or another context in [`context`].
 
 pub(super) mod carrying;
-pub(super) mod context_gain;
-pub(super) mod context_lag;
-pub(super) mod context_term;
+pub(super) mod context;
 pub(super) mod coulomb_friction;
 pub(super) mod dahl_friction;
 pub(super) mod inertia;
 pub(super) mod joint_gravity;
 pub(super) mod lugre_friction;
 pub(super) mod measurement;
+pub(super) mod output_bouc_wen;
 pub(super) mod output_hysteresis;
 pub(super) mod stribeck_friction;
 pub(super) mod viscous_friction;

@@ -16,7 +16,7 @@ use actuators::{coupling, periodic, prandtl_ishlinskii, ranged, slipping};
 use delays::delay;
 use frames::{base_tilt, turned};
 use loads::{ground_effect, jet, load};
-use motions::motion;
+use motions::{following, motion};
 use pieces::{array, carrier, each, plain_body, since_start, some, with};
 pub use rings::Ring;
 
@@ -154,9 +154,9 @@ pub fn write(asked: &Asked) -> Option<Body> {
         "outflow" => ranged(
             asked,
             2,
-            "tau dz/dt = 2 (sqrt(1 + b x) - sqrt(1 + b z))/b,   x = (q - m)/h,   q' = m + h z",
-            "varying_lag_step(time, z, v[0], root_pace, v + 1, &m->state[@J]) - z",
-            Some(("$name_lag", "root_pace")),
+            "tau (1 + b z) dz/dt = x - z,   x = (q - m)/h,   q' = m + h z",
+            "varying_lag_step(time, z, v[0], flow_pace, v + 1, &m->state[@J]) - z",
+            Some(("$name_lag", "flow_pace")),
         ),
         "input_nonlinearity" => ranged(
             asked,
@@ -252,19 +252,14 @@ pub fn write(asked: &Asked) -> Option<Body> {
                 "x[j] += v[j] * d;",
             )
         },
-        "lugre_friction" => Body {
-            memory: array("$name_lag", 1),
-            needs: vec!["lugre"],
-            ..with(
-                asked,
-                "y'_m = y_m + f_m d,   delta d' = v - |v| d/g(v),   g = 1 + r exp(-(v/w)^2),   v = ds/dt",
-                &format!(
-                    "    const double d = lugre_step(time, in[{}], v[@N], v[@N + 1], v[@N + 2], &m->state[0]);\n",
-                    carrier(asked)?
-                ),
-                "x[j] += v[j] * d;",
-            )
-        },
+        "lugre_friction" => following(
+            asked,
+            "y'_m = y_m + f_m d,   delta d' = v - |v| d/g(v),   g = 1 + r exp(-(v/w)^2),   v = ds/dt",
+            3,
+            "lugre_step(time, d[0], v[@N], v[@N + 1], v[@N + 2], &m->state[0])",
+            "lugre",
+            "$name_lag",
+        )?,
         "output_hysteresis" => Body {
             memory: array("$name_play", 1),
             needs: vec!["play"],
@@ -275,6 +270,14 @@ pub fn write(asked: &Asked) -> Option<Body> {
                 "x[j] += v[j] * d;",
             )
         },
+        "output_bouc_wen" => following(
+            asked,
+            "y'_m = y_m + f_m z,   delta dz = ds - (1 + a)/2 |ds| |z|^(n-1) z - (1 - a)/2 ds |z|^n",
+            4,
+            "bouc_wen_power_step(d[2], &v[@N], &m->state[0])",
+            "bouc_wen_power",
+            "$name_slip",
+        )?,
         "viscous_friction" => motion(asked, "y'_m = y_m + c_m ds/dt", 0, "d[0]", None)?,
         "inertia" => motion(asked, "y'_m = y_m + mu_m d^2s/dt^2", 0, "d[1]", None)?,
         "coulomb_friction" => {

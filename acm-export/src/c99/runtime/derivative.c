@@ -1,7 +1,7 @@
-/* First and second derivative d of a signal at the newest of `count` samples in a ring with `room` places: a parabola by least
+/* First and second derivative and smoothed value d of a signal at the newest of `count` samples in a ring with `room` places: a parabola by least
  * squares with weights (1 - u^2)^2, u = (t - newest)/h. No window is narrower than 1.6 times the reach of the last five
- * samples; where samples do not tell a parabola, d is the slope of the line through the last three. */
-static void derivative(const double *time, const double *x, int first, int count, int room, double h, double d[2])
+ * samples; where samples do not tell a parabola, d is the slope of the line through the last three. The value is the sample itself at h = 0. */
+static void derivative(const double *time, const double *x, int first, int count, int room, double h, double d[3])
 {
     const int end = first + count - 1, newest = end < room ? end : end - room;
     const int early = count > 5 ? end - 4 : first, fifth = early < room ? early : early - room;
@@ -35,6 +35,8 @@ static void derivative(const double *time, const double *x, int first, int count
     if (s[0] > 0.0 && determinant > 1e-9 * t2 * t4) {
         d[0] = (t4 * y1 - t3 * y2) / determinant / width;
         d[1] = 2.0 * ((t2 * y2 - t3 * y1) / determinant) / (width * width);
+        d[2] = s[5] / s[0] - d[0] * width * (s[1] / s[0]) - 0.5 * d[1] * width * width * (s[2] / s[0]);
+        d[2] = x[newest] + (wide ? 1.0 : h > 0.0 ? h / narrowest : 0.0) * d[2];
         return;
     }
     for (int k = 0; k < 4; ++k) {
@@ -53,4 +55,5 @@ static void derivative(const double *time, const double *x, int first, int count
     }
     d[0] = s[2] > 0.0 ? s[3] / s[2] : 0.0;
     d[1] = 0.0;
+    d[2] = x[newest];
 }

@@ -62,7 +62,7 @@ fn outlet(bench: &mut Bench, plan: &Plan, draw: &mut Draw) {
     let gain = draw.scale(0.3, 1.2);
     // A small change about half of the flow takes θ·b.
     let theta = Free::positive("theta", plan.pace * draw.scale(0.1, 0.8) / gain, "s/m^0.5");
-    let named = Named::new("state_dependent_lag", Some("flow")).called("torricelli_outflow");
+    let named = Named::new("outflow", Some("flow")).called("torricelli_outflow");
     let free = bench.cause(&named, [theta]);
     let gain = Free { neutral: gain, ..Free::positive("gain", gain, "m^0.5") };
     bench.given_stage(Stage::Outflow, free.into_iter().chain([gain]));

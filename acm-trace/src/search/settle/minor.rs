@@ -13,7 +13,8 @@ impl Search<'_, '_> {
     /// Returns the set of named effects with minor ones beside them; the set itself where it names nothing, or none passes.
     pub(in crate::search) fn with_minor(&self, selected: &Selected) -> Scored {
         let (named, losses) = (&selected.last, &selected.last_losses);
-        let criteria = Criteria { price: self.criteria.minor * self.criteria.price, ..self.criteria.clone() };
+        let (price, refined) = (self.criteria.minor * self.criteria.price, 5 * self.criteria.refined);
+        let criteria = Criteria { price, refined, ..self.criteria.clone() };
         let trials = Trials { problem: self.problem, quick: self.quick };
         let mut search = Search::new(trials, self.library, &criteria, self.seed, false);
         search.first = self.first;

@@ -6,7 +6,7 @@
 //!
 //! | symbol | meaning                                                              | unit            |
 //! | `w_i`  | weight of each play, all actuators                                   | 1               |
-//! | `r_i`  | its half-width: 15, 40 and 100 % of the largest                      | of the actuator |
+//! | `r_i`  | its half-width: 6, 14, 24, 36, 50, 65, 82 and 100 % of the largest   | of the actuator |
 //! | `r`    | the largest half-width                                               | of the actuator |
 //!
 //! Where actuators have different units, `r` is a share of each one's own travel. Kuhnen (2003), European Journal of
@@ -21,11 +21,11 @@ use crate::effects::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, 
 pub struct PrandtlIshlinskii;
 
 /// Half-widths as shares of the largest.
-const SHARES: [f64; PLAYS] = [0.15, 0.4, 1.0];
-const PLAYS: usize = 3;
+const SHARES: [f64; PLAYS] = [0.06, 0.14, 0.24, 0.36, 0.5, 0.65, 0.82, 1.0];
+const PLAYS: usize = 8;
 
 /// Weights to start from, as shares of a typical one.
-const WEIGHTS: [f64; 2] = [0.3, 1.0];
+const WEIGHTS: [f64; 3] = [0.1, 0.3, 1.0];
 
 /// Largest half-widths to start from.
 const RADII: usize = 5;

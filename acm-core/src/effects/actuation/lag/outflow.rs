@@ -1,16 +1,16 @@
-//! Vessel with an outflow by Torricelli's law: the level that follows what flows in, and empties the slower the lower it is.
+//! Vessel that fills by the actuators and empties by Torricelli's law: what flows out follows what flows in, the slower the higher it stands.
 //!
 //! ```text
-//! τ dz/dt = 2 (√(1 + κ x) − √(1 + κ z))/κ = 2 (x − z)/(√(1 + κ x) + √(1 + κ z)),   x = (q − m)/h,   q̃ = m + h z,   q̃(t_0) = q(t_0)
+//! τ (1 + κ z) dz/dt = x − z,   x = (q − m)/h,   q̃ = m + h z,   q̃(t_0) = q(t_0)
 //! ```
 //!
 //! | symbol       | meaning                                                                      | unit            |
 //! | `τ`          | time constant at the middle of the range, all actuators                      | s               |
-//! | `κ`          | 0 to 0.999: how near the bottom the lower end of the range is, all actuators | 1               |
+//! | `κ`          | 0 to 1: how near to none the least flow of the range is, all actuators       | 1               |
 //! | `m_j`, `h_j` | middle of the recorded range of each actuator, half its width                | of the actuator |
 //!
-//! With A dy/dt = w − c √y the inflow is given as the level x at which as much flows out, (w/c)²; the bottom is at z = −1/κ. Vessels that
-//! empty into one another are a chain of it, in which each level stands for its outflow. At κ = 0 it is `actuator_lag`. Second order in the
+//! With A dy/dt = w − o and o = c √y, the flow out o follows the flow in w by (2A/c²) o do/dt = w − o; no flow is z = −1/κ. The level is
+//! (o/c)², a static map. Vessels that empty into one another are a chain of it. At κ = 0 it is `actuator_lag`. Second order in the
 //! time between samples ([`memory::VaryingLag`]). Seborg, Edgar, Mellichamp & Doyle (2016), Process Dynamics and Control, 4th ed., ch. 2.4.5
 //! (liquid storage systems).
 
@@ -62,7 +62,7 @@ impl Effect for Outflow {
     }
 
     fn parameters(&self, rig: &Rig, _: Carrier) -> Vec<ParameterSpec> {
-        let bend = ParameterSpec::shape("bend", "1", 0.0, 0.3).within(0.0, 0.999);
+        let bend = ParameterSpec::shape("bend", "1", 0.0, 0.3).within(0.0, 1.0);
         [times::size(rig, "tau"), bend].into_iter().chain(actuators::ends(rig)).collect()
     }
 
@@ -80,47 +80,44 @@ impl Effect for Outflow {
         let lags = memory.states::<memory::VaryingLag>(columns.len());
         actuators::pass_in_range(values, OWN, columns, lags, |lag, t, x| {
             let bend = values.at(1, t);
-            lag.step(record.time[t], x, values.at(0, t), |x| {
-                let flows_in = root(x, bend);
-                move |z| 0.5 * (flows_in + root(z, bend))
-            })
+            lag.step(record.time[t], x, values.at(0, t), |_| move |z| pace(z, bend))
         });
     }
 
     fn memory(&self, values: Values) -> Option<f64> {
-        Some(values.at(0, 0) * (1.0 + values.at(1, 0)).sqrt())
+        Some(values.at(0, 0) * (1.0 + values.at(1, 0)))
     }
 
     fn second_memory(&self, values: Values) -> Option<f64> {
-        (values.at(1, 0) > 0.0).then(|| values.at(0, 0) * (1.0 - values.at(1, 0)).sqrt())
+        (values.at(1, 0) > 0.0).then(|| values.at(0, 0) * (1.0 - values.at(1, 0)).max(LEAST))
     }
 }
 
-/// Smallest root: near the bottom a vessel empties in no time.
-const LEAST: f64 = 1e-6;
+/// Smallest 1 + κz: near the bottom a vessel empties in no time.
+const LEAST: f64 = 1e-3;
 
-/// √(1 + κz).
-fn root(z: f64, bend: f64) -> f64 {
-    (1.0 + bend * z).max(LEAST * LEAST).sqrt()
+/// τ at z over that at the middle.
+fn pace(z: f64, bend: f64) -> f64 {
+    (1.0 + bend * z).max(LEAST)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// Oracle: Torricelli's √y = √y_0 − c t/(2A) of a vessel that nothing flows into, from 4 m to its bottom, 0 m; A/c = 3 s √m. The range is
-    /// 0 to 4 m, so that τ = 2 A/c √2 m at its middle.
+    /// Oracle: Torricelli's √y = √y_0 − c t/(2A) of a vessel that nothing flows into, from 4 m to its bottom; A/c = 3 s √m and c = 1 m^2.5/s.
+    /// What flows out is √y: 0 to 2 m³/s, so that τ = 2 A/c √1 m at the middle.
     #[test]
     fn a_vessel_empties() {
         let time: Vec<f64> = [0.0, 1e-9].into_iter().chain((1..350).map(|k| 0.02 * f64::from(k))).collect();
         let mut columns = vec![vec![0.0; time.len()]];
-        columns[0][0] = 4.0;
+        columns[0][0] = 2.0;
         let record = Record::new(time.clone(), columns.clone(), vec![], vec![]);
-        let values = [6.0 * 2.0f64.sqrt(), 1.0, 4.0, 0.0];
+        let values = [6.0, 1.0, 2.0, 0.0];
         Outflow.act(Carrier::Rig, Values::constant(&[], &values), &record, &mut columns);
-        for (t, level) in time.iter().zip(&columns[0]).skip(1) {
-            let truth = (2.0 - t / 6.0).powi(2);
-            assert!((level - truth).abs() < 1e-3, "{t}: {level} and {truth}");
+        for (t, flow) in time.iter().zip(&columns[0]).skip(1) {
+            let truth = 2.0 - t / 6.0;
+            assert!((flow - truth).abs() < 1e-3, "{t}: {flow} and {truth}");
         }
     }
 

@@ -6,7 +6,7 @@
 //!
 //! | symbol       | meaning                                                           | unit            |
 //! | `τ0`         | time constant at the middle of the range, all actuators           | s               |
-//! | `κ`          | how it grows towards the upper end, −0.95 to 0.95, all actuators  | 1               |
+//! | `κ`          | how it grows towards the upper end, −0.999 to 0.999, all actuators | 1               |
 //! | `λ`          | how it grows towards both ends, or below 0 falls, all actuators   | 1               |
 //! | `ρ`          | share of it that depends on nothing, 0 to 0.9, all actuators      | 1               |
 //! | `m_j`, `h_j` | middle of the recorded range of each actuator, half its width     | of the actuator |
@@ -64,7 +64,7 @@ impl Effect for StateDependentLag {
     }
 
     fn parameters(&self, rig: &Rig, _: Carrier) -> Vec<ParameterSpec> {
-        let bend = ParameterSpec::shape("bend", "1", 0.0, 0.3).within(-0.95, 0.95);
+        let bend = ParameterSpec::shape("bend", "1", 0.0, 0.3).within(-0.999, 0.999);
         let curve = ParameterSpec::shape("curve", "1", 0.0, 0.3).within(-20.0, 20.0);
         let floor = ParameterSpec::shape("floor", "1", 0.0, 0.1).within(0.0, 0.9);
         [times::size(rig, "tau"), bend, curve, floor].into_iter().chain(actuators::ends(rig)).collect()
@@ -100,7 +100,7 @@ impl Effect for StateDependentLag {
 }
 
 /// Smallest 1 + κ z.
-const LEAST: f64 = 0.05;
+const LEAST: f64 = 0.001;
 
 /// τ/τ0 at z.
 fn pace(z: f64, [bend, curve, floor]: [f64; 3]) -> f64 {

@@ -1,16 +1,17 @@
-//! Bouc–Wen state of exponent 1 in units of its saturation, at rest at the first sample; within ±1.
+//! Bouc–Wen state in units of its saturation, at rest at the first sample unless told otherwise; within ±1.
 //!
 //! ```text
-//! δ dz = dx − ½(1 + a) |dx| z − ½(1 − a) dx |z|
+//! δ dz = dx − ½(1 + a) |dx| |z|^{n−1} z − ½(1 − a) dx |z|^n
 //! ```
 //!
-//! Away from rest, z relaxes to ±1 over the `width` δ; back to rest, it moves at slope 1 + a|z|: `asymmetry` a = 1 is
-//! Dahl's state, δ dd = (sgn v − d) |dx|; a = 0 returns on a straight line. Each piece is exponential, and a step is cut
-//! where z passes 0.
+//! Away from rest, z relaxes to ±1 over the `width` δ; back to rest, it moves at slope 1 + a|z|^n: `asymmetry` a = 1 with exponent
+//! n = 1 is Dahl's state, δ dd = (sgn v − d) |dx|; a = 0 returns on a straight line; a large n yields suddenly. With n = 1 each piece
+//! is exponential, and a step is cut where z passes 0. Other exponents have no closed form: classical Runge–Kutta, in pieces that are
+//! short beside δ/n.
 
-use crate::effects::memory::State;
+use super::super::State;
 
-/// See the head of this file.
+/// A Bouc–Wen state.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct BoucWen {
     before: Option<f64>,
@@ -19,14 +20,42 @@ pub struct BoucWen {
 
 impl State for BoucWen {}
 
+/// Longest piece in units of δ/n: wrong by less than 1e-4 of saturation.
+const PIECE: f64 = 0.5;
+
+/// Distance from saturation that is none.
+const SATURATED: f64 = 1e-9;
+
+/// Pieces that saturate any state.
+const MOST: f64 = 4096.0;
+
 impl BoucWen {
-    /// z at the next sample.
+    /// z at the next sample, with exponent 1.
     #[inline]
     pub fn step(&mut self, x: f64, width: f64, asymmetry: f64) -> f64 {
+        self.moved(x, width, |z, way| away(z, way, asymmetry))
+    }
+
+    /// z at the next sample, with any exponent from 1 on and an asymmetry above −1.
+    #[inline]
+    pub fn step_of_power(&mut self, x: f64, width: f64, asymmetry: f64, exponent: f64) -> f64 {
+        self.moved(x, width, |z, way| away_of_power(z, way, asymmetry, exponent))
+    }
+
+    /// Begins at z where no sample was before.
+    #[inline]
+    pub fn begin(&mut self, z: f64) {
+        if self.before.is_none() {
+            self.z = z;
+        }
+    }
+
+    #[inline]
+    fn moved(&mut self, x: f64, width: f64, away: impl Fn(f64, f64) -> f64) -> f64 {
         let step = x - self.before.unwrap_or(x);
         if step != 0.0 {
             let way = step.abs() / width.max(f64::MIN_POSITIVE);
-            self.z = step.signum() * away(step.signum() * self.z, way, asymmetry);
+            self.z = step.signum() * away(step.signum() * self.z, way);
         }
         self.before = Some(x);
         self.z
@@ -53,4 +82,23 @@ fn away(z: f64, way: f64, a: f64) -> f64 {
     }
     let back = if curved { (-a * z).ln_1p() / a } else { -z };
     -(back - way).exp_m1()
+}
+
+/// The same with exponent n.
+fn away_of_power(z: f64, way: f64, a: f64, n: f64) -> f64 {
+    let slope = |z: f64| 1.0 - z.abs().powf(n) * if z < 0.0 { -a } else { 1.0 };
+    let pieces = (way * n / PIECE).ceil().min(MOST);
+    let h = if pieces < MOST { way / pieces } else { PIECE / n };
+    let mut z = z;
+    for _ in 0..pieces as usize {
+        if z > 1.0 - SATURATED {
+            return 1.0;
+        }
+        let k1 = slope(z);
+        let k2 = slope(z + 0.5 * h * k1);
+        let k3 = slope(z + 0.5 * h * k2);
+        let k4 = slope(z + h * k3);
+        z = (z + h / 6.0 * (k1 + 2.0 * (k2 + k3) + k4)).min(1.0);
+    }
+    z
 }

@@ -61,17 +61,20 @@ pub fn slipping(asked: &Asked, shapes: usize, equation: &'static str, size: &str
 }
 
 pub fn prandtl_ishlinskii(asked: &Asked) -> Body {
-    const SHARES: [f64; 3] = [0.15, 0.4, 1.0];
+    const SHARES: [f64; 8] = [0.06, 0.14, 0.24, 0.36, 0.5, 0.65, 0.82, 1.0];
+    let plays = SHARES.len();
     let mut code = String::from("    double before;\n");
     for j in 0..asked.columns {
         code += &format!("    before = x[{j}];\n");
         for (i, share) in SHARES.iter().enumerate() {
-            let radius = format!("v[3] * {} * {}", double(unit(asked, 4, j)), double(*share));
-            code +=
-                &format!("    x[{j}] += v[{i}] * (play_step(before, {radius}, &m->state[{}]) - before);\n", 3 * j + i);
+            let radius = format!("v[{plays}] * {} * {}", double(unit(asked, plays + 1, j)), double(*share));
+            code += &format!(
+                "    x[{j}] += v[{i}] * (play_step(before, {radius}, &m->state[{}]) - before);\n",
+                plays * j + i
+            );
         }
     }
-    let memory = array("$name_play", 3 * asked.columns);
+    let memory = array("$name_play", plays * asked.columns);
     Body {
         memory,
         needs: vec!["play"],

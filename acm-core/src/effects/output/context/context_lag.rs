@@ -12,7 +12,7 @@
 //!
 //! Incropera et al. (2007), Fundamentals of Heat and Mass Transfer, ch. 5.1: lumped capacitance.
 
-use super::carrying;
+use super::super::carrying;
 use crate::effects::memory::{Decay, Lag};
 use crate::effects::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, guesses, times};
 

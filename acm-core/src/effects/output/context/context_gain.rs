@@ -12,7 +12,7 @@
 //! Linear in the outputs, so that it acts on each column of a model alike. JCGM 200:2012, International vocabulary of metrology, 4.12
 //! and 2.52 (sensitivity, influence quantity).
 
-use super::carrying;
+use super::super::carrying;
 use crate::effects::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values};
 
 /// See the head of this file.

@@ -11,7 +11,7 @@
 //!
 //! Fraden (2016), Handbook of Modern Sensors, ch. 3: cross-sensitivity.
 
-use super::carrying;
+use super::super::carrying;
 use crate::effects::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, guesses};
 
 /// See the head of this file.
