@@ -51,10 +51,10 @@ pub fn slopes(problem: &Problem, state: &State, beta: &DMatrix<f64>) -> Vec<DMat
     all.into_iter().filter(|z| z.iter().all(|z| z.is_finite()) && z.amax() > 0.0).collect()
 }
 
-/// Returns the largest number of steps of a state: [`RINGING`] times as many with a resonance.
-pub fn steps(state: &State, iterations: usize) -> usize {
+/// Returns the largest number of steps of effects: [`RINGING`] times as many with a resonance.
+pub fn steps(effects: &[Arc<Placed>], iterations: usize) -> usize {
     let rings = |placed: &Arc<Placed>| placed.instance.effect().traits().is_resonance;
-    if state.effects.iter().any(rings) { RINGING * iterations } else { iterations }
+    if effects.iter().any(rings) { RINGING * iterations } else { iterations }
 }
 
 /// Returns the state with its nonlinear parameters refined, `iterations` steps at most.

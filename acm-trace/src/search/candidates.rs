@@ -13,7 +13,7 @@ use candidate::{candidate, sloped};
 use replaced::{apart, bowed, in_a_row, in_place_of, is_refined_alike};
 
 pub use candidate::{Candidate, new_in};
-pub use replaced::{plainer, refinements, steadied};
+pub use replaced::{behind_map, merged, plainer, refinements, steadied};
 
 /// Largest number of context signals that sizes may depend on.
 const CONTEXTS: usize = 6;

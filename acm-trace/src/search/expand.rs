@@ -27,7 +27,7 @@ impl Search<'_, '_> {
         if let Some(known) = self.known.get(&key) {
             return known.clone();
         }
-        let refined = refine(self.quick, state, steps(state, ITERATIONS.1));
+        let refined = refine(self.quick, state, steps(&state.effects, ITERATIONS.1));
         let (chosen, losses) = nuisance::choose(self.problem, &refined, self.criteria);
         let settled = (self.score(&losses, &chosen), chosen, losses);
         self.known.insert(key, settled.clone());
@@ -36,7 +36,7 @@ impl Search<'_, '_> {
 
     /// Returns a set with its values refined on all samples, where that predicts better, also as it is saved.
     pub(super) fn polished(&self, last: Scored) -> Scored {
-        let refined = refine(self.problem, &last.1, steps(&last.1, POLISHED));
+        let refined = refine(self.problem, &last.1, steps(&last.1.effects, POLISHED));
         let (chosen, losses) = nuisance::choose(self.problem, &refined, self.criteria);
         let score = self.score(&losses, &chosen);
         let is_better = score < last.0 && self.is_better_as_saved((score, &chosen), (last.0, &last.1));
@@ -108,7 +108,9 @@ impl Search<'_, '_> {
     /// Returns the refined state, with the new effect in the calibration trials too where that predicts better.
     fn scoped(&self, one: &Tried) -> State {
         let new = new_in(&one.label, &one.state, self.problem.rig);
-        let iterations = steps(&one.state, ITERATIONS.0);
+        // A resonance that was there before has found its valley.
+        let of_new = |new: usize| steps(&one.state.effects[new..=new], ITERATIONS.0);
+        let iterations = new.map_or(ITERATIONS.0, of_new);
         let refined = refine(self.quick, &one.state, iterations);
         let Some(new) = new.filter(|_| self.problem.has_calibration()) else { return refined };
         let rescoped = refine(self.quick, &one.state.rescoped(new), iterations);

@@ -3,7 +3,7 @@
 mod minor;
 
 use super::accept::{Tested, least_t, paired_t};
-use super::candidates::{plainer, price, steadied};
+use super::candidates::{behind_map, merged, plainer, price, steadied};
 use super::nuisance;
 use super::scan::Losses;
 use super::scored::{LEAST_FALL, Scored, Search};
@@ -55,6 +55,12 @@ impl Search<'_, '_> {
                 let plain = self.settled(&plain);
                 if plain.0 < bar(&best) {
                     best = Some((plain, format!("{} → {simple}", last.1.effects[i].label(self.problem.rig))));
+                }
+            }
+            for (change, fewer) in merged(self.problem, &last.1, self.library) {
+                let fewer = self.settled(&fewer);
+                if fewer.0 < bar(&best) {
+                    best = Some((fewer, change));
                 }
             }
             for (name, without) in self.smaller(&last.1) {
@@ -119,14 +125,17 @@ impl Search<'_, '_> {
 
     /// Returns a set beside a nominal form with kinks, where that predicts better by as much as an effect has to. Kinks come last: a
     /// saturation or a dead zone has a name, and a map with kinks takes up what it does. In return, static effects on the inputs may
-    /// have stood for the kinks: it is also tried without them.
+    /// have stood for the kinks: it is also tried without them. Then a filter before the map may belong behind it.
     pub(super) fn bent(&mut self, last: &Scored) -> Option<Scored> {
         if last.1.effects.is_empty() && last.1.clock == 0.0 {
             return None;
         }
         let without = last.1.without_static_inputs();
-        let starts = [Some(last.1.clone()), Some(without).filter(|rest| rest.effects.len() < last.1.effects.len())];
-        let tried: Vec<Scored> = starts.into_iter().flatten().filter_map(|state| self.with_kinks(state)).collect();
+        let count = without.effects.len();
+        let behind = (0..count).filter_map(|i| behind_map(self.problem, &without, i, self.library)).collect::<Vec<_>>();
+        let starts = [Some(last.1.clone()), Some(without).filter(|_| count < last.1.effects.len())];
+        let starts = starts.into_iter().flatten().chain(behind);
+        let tried: Vec<Scored> = starts.filter_map(|state| self.with_kinks(state)).collect();
         let best = tried.into_iter().min_by(|a, b| a.0.total_cmp(&b.0))?;
         let is_better = !best.1.form.kinks.is_empty()
             && best.0 < last.0 - self.criteria.price

@@ -81,6 +81,24 @@ pub fn steadied(problem: &Problem, state: &State, i: usize, library: &[Instance]
     Some(next)
 }
 
+/// Filters of the actuators, and the same of the outputs.
+const FILTERS: [(&str, &str); 3] = [
+    ("actuator_lag", "measurement_lag"),
+    ("second_order_lag", "measurement_second_order"),
+    ("dead_time", "measurement_delay"),
+];
+
+/// Returns the state with a filter behind the nominal map that does to the outputs what effect `i` does to the actuators, at the same
+/// values; none where it is no such filter, or one of some actuators only.
+pub fn behind_map(problem: &Problem, state: &State, i: usize, library: &[Instance]) -> Option<State> {
+    let old = &state.effects[i].instance;
+    let (_, name) = FILTERS.iter().find(|(before, _)| *before == old.effect().name())?;
+    let is_whole = old.carrier() == Carrier::Rig || problem.rig.actuators.len() == 1;
+    let new =
+        library.iter().find(|one| one.effect().name() == *name).filter(|_| is_whole && old.context().is_none())?;
+    in_place_of(problem, state, i, new).into_iter().flat_map(|candidate| candidate.states).next()
+}
+
 /// Returns an effect in the place of a simpler one, beginning with its values.
 pub(super) fn in_place_of(problem: &Problem, state: &State, i: usize, new: &Instance) -> Vec<Candidate> {
     let simple = &state.effects[i];
@@ -170,6 +188,38 @@ pub(super) fn in_a_row(problem: &Problem, state: &State, i: usize, library: &[In
     library.iter().filter(is_lag).filter_map(of).collect()
 }
 
+/// Returns the states with a dead time in the place of two linear filters of the same actuators, and their labels: to first order
+/// e^{−Δs} is 1/((1 + τs)(1 + 2ζs/ω + s²/ω²)) with Δ = τ + 2ζ/ω. None where there is a dead time already.
+pub fn merged(problem: &Problem, state: &State, library: &[Instance]) -> Vec<(String, State)> {
+    let late = |placed: &Placed| {
+        let value = |name: &str| {
+            let at = placed.instance.parameters().iter().position(|spec| spec.name == name)?;
+            Some(placed.theta[at])
+        };
+        match placed.instance.effect().name() {
+            LAG => value("tau"),
+            "second_order_lag" => Some(2.0 * value("damping")? * value("period")? / TAU),
+            _ => None,
+        }
+    };
+    let lates: Vec<Option<f64>> = state.effects.iter().map(|placed| late(placed)).collect();
+    let of = |i: usize, j: usize| {
+        let (one, other) = (&state.effects[i], &state.effects[j]);
+        let carrier = one.instance.carrier();
+        let is_it = |new: &&Instance| new.effect().name() == "dead_time" && new.carrier() == carrier;
+        let new = library.iter().find(is_it).filter(|_| other.instance.carrier() == carrier)?;
+        let mut theta: Vec<f64> = new.parameters().iter().map(|spec| spec.neutral).collect();
+        let at = new.parameters().iter().position(|spec| spec.name == "delay")?;
+        theta[at] = new.parameters()[at].inside(lates[i]? + lates[j]?);
+        let placed = Placed { theta, in_calibration: one.in_calibration, instance: new.clone() };
+        let [one, other, new] = [&one.instance, &other.instance, new].map(|instance| instance.label(problem.rig));
+        Some((format!("{one}, {other} → {new}"), state.without(j).without(i).with(placed)))
+    };
+    let has_delay = state.effects.iter().any(|placed| placed.instance.effect().name() == "dead_time");
+    let count = if has_delay { 0 } else { state.effects.len() };
+    (0..count).flat_map(|j| (0..j).filter_map(move |i| of(i, j)).collect::<Vec<_>>()).collect()
+}
+
 /// The lag that those of a vessel refine.
 const LAG: &str = "actuator_lag";
 
@@ -209,6 +259,46 @@ mod tests {
         assert_eq!(simple.effects[0].instance.effect().name(), name);
         assert_eq!(simple.effects[0].theta[..2], [0.4, 0.7]);
         assert!(plainer(&simple, 0, &library).is_none());
+    }
+
+    fn problem_of<'a>(rig: &'a acm_core::rig::Rig, series: &'a [crate::series::Series]) -> Problem<'a> {
+        Problem::new(rig, series, &[1.0], None)
+    }
+
+    /// Oracle: by hand, a lag of 0.4 s and an oscillator of 2 s damped by a half are late by 0.4 + 1/π s. Where there is a dead time already,
+    /// nothing is merged.
+    #[test]
+    fn a_lag_and_an_oscillator_merge_to_a_dead_time() {
+        let rig = bench::rig(&["q"], &[], &["y"]);
+        let still = vec![0.0; bench::time().len()];
+        let series = [bench::series(Record::new(bench::time(), vec![still.clone()], vec![], vec![]), still)];
+        let problem = problem_of(&rig, &series);
+        let of = |name: &str, theta: &[f64]| bench::placed(name, Carrier::Rig, &rig, theta);
+        let library = [of("dead_time", &[1.0]).instance];
+        let both = State::bare(Form::LINEAR).with(of("actuator_lag", &[0.4])).with(of("second_order_lag", &[2.0, 0.5]));
+        let states = merged(&problem, &both, &library);
+        assert_eq!(states.len(), 1);
+        let (label, state) = &states[0];
+        assert!(label.ends_with("→ dead_time"), "{label}");
+        assert_eq!(state.effects.len(), 1);
+        assert!((state.effects[0].theta[0] - 0.4 - std::f64::consts::FRAC_1_PI).abs() < 1e-12, "{state:?}");
+        assert!(merged(&problem, &both.with(of("dead_time", &[0.1])), &library).is_empty());
+    }
+
+    #[test]
+    fn a_filter_goes_behind_the_map_with_its_values() {
+        let rig = bench::rig(&["q"], &[], &["y"]);
+        let still = vec![0.0; bench::time().len()];
+        let series = [bench::series(Record::new(bench::time(), vec![still.clone()], vec![], vec![]), still)];
+        let problem = problem_of(&rig, &series);
+        let of = |name: &str, theta: &[f64]| bench::placed(name, Carrier::Rig, &rig, theta);
+        let library = [of("measurement_second_order", &[1.0, 1.0]).instance];
+        let state = State::bare(Form::LINEAR).with(of("second_order_lag", &[2.0, 0.5])).with(of("backlash", &[0.1]));
+        let found: Vec<State> = (0..2).filter_map(|i| behind_map(&problem, &state, i, &library)).collect();
+        assert_eq!(found.len(), 1, "a backlash is no filter");
+        assert_eq!(found[0].labels(&rig), ["backlash", "measurement_second_order"]);
+        let filter = found[0].effects.iter().find(|placed| placed.instance.effect().traits().is_output_filter).unwrap();
+        assert_eq!(filter.theta, [2.0, 0.5]);
     }
 
     /// Oracle: (1 + s τ₁)(1 + s τ₂) is 1 + 2ζ s T/2π + (s T/2π)². An oscillator that swings is no two lags.

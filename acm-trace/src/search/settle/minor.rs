@@ -9,11 +9,14 @@ use crate::search::criteria::Criteria;
 use crate::search::scored::{Scored, Search, Trials};
 use crate::search::select::{Selected, possible};
 
+/// Candidates that are refined for each that is refined for a name.
+const REFINED: usize = 5;
+
 impl Search<'_, '_> {
     /// Returns the set of named effects with minor ones beside them; the set itself where it names nothing, or none passes.
     pub(in crate::search) fn with_minor(&self, selected: &Selected) -> Scored {
         let (named, losses) = (&selected.last, &selected.last_losses);
-        let (price, refined) = (self.criteria.minor * self.criteria.price, 5 * self.criteria.refined);
+        let (price, refined) = (self.criteria.minor * self.criteria.price, REFINED * self.criteria.refined);
         let criteria = Criteria { price, refined, ..self.criteria.clone() };
         let trials = Trials { problem: self.problem, quick: self.quick };
         let mut search = Search::new(trials, self.library, &criteria, self.seed, false);
