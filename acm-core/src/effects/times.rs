@@ -6,7 +6,7 @@
 //! | grid of times   | Δt         | T/3      |
 //! | grid of periods | 4 Δt       | T/3      |
 //! | bounds of windows | 0        | T/50     |
-//! | grid of windows | 2 Δt       | T/50     |
+//! | grid of windows | 4 Δt       | T/50     |
 //!
 //! `Δt` is the median time between samples and `T` the longest trial, both s ([`Rig`]). What is faster than Δt/5 leaves no
 //! trace between two samples; of what is slower than T/3 too little is seen to tell it from a drift.

@@ -4,12 +4,12 @@
 //! τ(q̃) dq̃/dt = q − q̃,   τ = τ0 (ρ + (1 − ρ) (1 + κ z) (1 + |λ| z²)^{sgn λ}),   z = (q̃ − m)/h within −1 … 1,   q̃(t_0) = q(t_0)
 //! ```
 //!
-//! | symbol       | meaning                                                           | unit            |
-//! | `τ0`         | time constant at the middle of the range, all actuators           | s               |
+//! | symbol       | meaning                                                            | unit            |
+//! | `τ0`         | time constant at the middle of the range, all actuators            | s               |
 //! | `κ`          | how it grows towards the upper end, −0.999 to 0.999, all actuators | 1               |
-//! | `λ`          | how it grows towards both ends, or below 0 falls, all actuators   | 1               |
-//! | `ρ`          | share of it that depends on nothing, 0 to 0.9, all actuators      | 1               |
-//! | `m_j`, `h_j` | middle of the recorded range of each actuator, half its width     | of the actuator |
+//! | `λ`          | how it grows towards both ends, or below 0 falls, all actuators    | 1               |
+//! | `ρ`          | share of it that depends on nothing, 0 to 0.9, all actuators       | 1               |
+//! | `m_j`, `h_j` | middle of the recorded range of each actuator, half its width      | of the actuator |
 //!
 //! So empties a tank, whose outflow follows Torricelli's law: linearised at a level, its τ grows with the level; and so follows the
 //! current of a coil whose iron saturates, the faster the larger it is: its inductance falls as 1/(1 + (i/i_s)²) to that of the air, ρ.
