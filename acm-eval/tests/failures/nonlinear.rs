@@ -27,7 +27,7 @@ fn a_tank_that_empties_by_torricelli_is_found() {
         let start = pump(0.0).powi(2);
         solve(time, [start], |t, [h]| [0.2 * (pump(t) - h.max(0.0).sqrt())]).into_iter().map(|[h]| h).collect()
     });
-    assert!(closed.has(&["state_dependent_lag"]), "{closed}");
+    assert!(closed.has(&["outflow"]), "{closed}");
     assert!(closed.after() < 1.5 * NOISE, "{closed}");
 }
 

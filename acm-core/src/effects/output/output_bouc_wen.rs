@@ -10,12 +10,12 @@
 //! | `s`    | the signal whose motion carries the hysteresis                           | its own       |
 //! | `δ`    | width of the transition                                                  | of the signal |
 //! | `a`    | asymmetry (β − γ)/(β + γ) of loading and unloading                       | 1             |
-//! | `n`    | exponent: the larger, the more suddenly it yields                        | 1             |
+//! | `n`    | exponent, 1 to 3: the larger, the more suddenly it yields                | 1             |
 //! | `z_0`  | state at the first sample, −1 to 1: what was done to the rig before it   | 1             |
 //! | `s̃`    | the signal by a parabola through a window around each sample             | its own       |
 //! | `h`    | window: half its width; the signal as it is at 0                         | s             |
 //!
-//! In units of saturation, so that |z| ≤ 1. At a = 1, n = 1, z_0 = 0 and h = 0 it is `dahl_friction`, and for large n it comes to
+//! In units of saturation, so that |z| ≤ 1. At a = 1, n = 1, z_0 = 0 and h = 0 it is `dahl_friction`, and with a larger n it would come to
 //! `output_hysteresis`. Ismail, Ikhouane & Rodellar (2009), Archives of Computational Methods in Engineering 16(2).
 
 use super::carrying;
@@ -62,7 +62,7 @@ impl Effect for OutputBoucWen {
         let mut specs = carrying::sizes(rig, "height", "1", 1.0, 20.0);
         specs.push(ParameterSpec::shape("width", unit, typical, typical).within(smallest, largest));
         specs.push(ParameterSpec::shape("asymmetry", "1", 1.0, 0.3).within(-0.9, 4.0));
-        specs.push(ParameterSpec::shape("exponent", "1", 1.0, 0.5).within(1.0, 8.0));
+        specs.push(ParameterSpec::shape("exponent", "1", 1.0, 0.5).within(1.0, 3.0));
         specs.push(ParameterSpec::shape("start", "1", 0.0, 0.3).within(-1.0, 1.0));
         specs.push(times::window(rig));
         specs
