@@ -45,6 +45,9 @@ pub trait State: Clone + Debug + Default + Send + Sync + 'static {
 
 impl<S: State, const N: usize> State for [S; N] where [S; N]: Default {}
 
+/// What remembers nothing.
+impl State for () {}
+
 impl State for Vec<f64> {
     fn restart(&mut self) {
         self.clear();

@@ -50,14 +50,7 @@ pub fn derivative<'m>(
     memory: &'m mut Memory,
     of: impl Fn(&Derivative) -> f64,
 ) -> Option<&'m [f64]> {
-    let signal = signal(record, carrier)?;
-    if memory.is_whole() {
-        return Some(memory.column(record.derived.of(&record.time, signal, window).iter().map(of)));
-    }
-    let (states, column) = memory.states_and_column::<Derivatives>(1);
-    column.clear();
-    column.extend(states.first_mut()?.of(&record.time, signal, window).iter().map(of));
-    Some(column)
+    following(record, carrier, window, memory, |(): &mut (), _, derivative| of(derivative))
 }
 
 /// What `step` makes, with a state of its own, of one sample after another of the carrier's signal: of its index, and of the parabola through
@@ -74,13 +67,12 @@ pub fn following<'m, S: State>(
     let (states, column) = memory.states_and_column::<Follower<S>>(1);
     let Follower { derivatives, state } = states.first_mut()?;
     column.clear();
-    if is_whole {
-        let smooth = record.derived.of(&record.time, signal, window);
-        column.extend(smooth.iter().enumerate().map(|(t, d)| step(state, t, d)));
-    } else {
-        let smooth = derivatives.of(&record.time, signal, window);
-        column.extend(smooth.iter().enumerate().map(|(t, d)| step(state, t, d)));
-    }
+    let whole = is_whole.then(|| record.derived.of(&record.time, signal, window));
+    let parabolas = match &whole {
+        Some(parabolas) => parabolas,
+        None => derivatives.of(&record.time, signal, window),
+    };
+    column.extend(parabolas.iter().enumerate().map(|(t, parabola)| step(state, t, parabola)));
     Some(column)
 }
 

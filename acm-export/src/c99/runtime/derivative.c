@@ -1,6 +1,7 @@
-/* First and second derivative and smoothed value d of a signal at the newest of `count` samples in a ring with `room` places: a parabola by least
- * squares with weights (1 - u^2)^2, u = (t - newest)/h. No window is narrower than 1.6 times the reach of the last five
- * samples; where samples do not tell a parabola, d is the slope of the line through the last three. The value is the sample itself at h = 0. */
+/* First and second derivative and smoothed value d of a signal at the newest of `count` samples in a ring with `room` places: a
+ * parabola by least squares with weights (1 - u^2)^2, u = (t - newest)/h. No window is narrower than 1.6 times the reach of the last
+ * five samples; where samples do not tell a parabola, d is the slope of the line through the last three, and the sample itself. The
+ * value is that of the sample at h = 0, and on the way to the narrowest window as far between the two as h is. */
 static void derivative(const double *time, const double *x, int first, int count, int room, double h, double d[3])
 {
     const int end = first + count - 1, newest = end < room ? end : end - room;
