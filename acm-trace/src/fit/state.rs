@@ -62,6 +62,12 @@ impl Placed {
         self.instance.label(rig)
     }
 
+    /// Returns the value of a parameter; none where the effect has none of that name.
+    pub fn value(&self, name: &str) -> Option<f64> {
+        let at = self.instance.parameters().iter().position(|spec| spec.name == name)?;
+        Some(self.theta[at])
+    }
+
     /// Returns the nonlinear parameters that a fit may move. A size of an input effect that rests at its neutral value
     /// is not part of the effect, as one actuator's play is not where another actuator has it.
     pub fn free(&self) -> Vec<usize> {

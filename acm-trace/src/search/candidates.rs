@@ -55,11 +55,12 @@ pub fn candidates(problem: &Problem, state: &State, library: &[Instance], clock:
         let varied = refined.is_none() && old.is_none_or(|i| state.effects[i].instance.context().is_none());
         for context in modulators(problem, new).into_iter().filter(|_| varied) {
             let without = old.map_or_else(|| state.clone(), |i| state.without(i));
-            let straight = new.with_context(context, problem.rig);
+            let mut dependent = new.with_context(context, problem.rig);
             // A bend that is alike on both sides of the middle has no slope.
-            let bends = context == new.carrier();
-            let varied = if bends { straight.and_then(|line| line.with_bow(problem.rig)) } else { straight };
-            let Some(instance) = varied else { continue };
+            if context == new.carrier() {
+                dependent = dependent.and_then(|line| line.with_bow(problem.rig));
+            }
+            let Some(instance) = dependent else { continue };
             let (guesses, each) = varied_guesses(problem, new, &instance, context);
             let varied = candidate(problem, &without, &instance, guesses);
             all.extend(varied.into_iter().map(|one| Candidate { each: Some(each), ..one }));
@@ -105,8 +106,7 @@ fn is_delay(problem: &Problem, filter: &Instance) -> bool {
     filter.initial_guesses(problem.rig).first().is_some_and(|guess| filter.memory(guess).is_none())
 }
 
-/// Returns the signals on which the size of an effect may depend: contexts, for friction the other actuators, and for what follows a
-/// context at every moment that context itself, by which it bends.
+/// Returns the signals on which the size of an effect may depend: contexts, and for friction the other actuators.
 pub fn modulators(problem: &Problem, instance: &Instance) -> Vec<Carrier> {
     let (traits, rig) = (instance.effect().traits(), problem.rig);
     let lasts = instance.initial_guesses(rig).first().is_some_and(|guess| instance.memory(guess).is_some());
@@ -117,8 +117,7 @@ pub fn modulators(problem: &Problem, instance: &Instance) -> Vec<Carrier> {
     let contexts = (0..rig.contexts.len()).map(Carrier::Context).filter(varies).take(CONTEXTS);
     let few = traits.follows_pressure && rig.actuators.len() <= PRESSURES;
     let actuators = (0..if few { rig.actuators.len() } else { 0 }).map(Carrier::Actuator).filter(varies);
-    let bends = traits.is_static && matches!(instance.carrier(), Carrier::Context(_));
-    contexts.chain(actuators).filter(|c| bends || *c != instance.carrier()).collect()
+    contexts.chain(actuators).collect()
 }
 
 /// Returns the initial guesses, and how many of them belong to each guess of the plain effect.

@@ -51,10 +51,11 @@ impl Search<'_, '_> {
             let mut best: Option<(Scored, String)> = None;
             let bar = |best: &Option<(Scored, String)>| best.as_ref().map_or(last.0 - LEAST_FALL, |best| best.0.0);
             for i in 0..last.1.effects.len() {
-                let Some((simple, plain)) = plainer(&last.1, i, self.library) else { continue };
-                let plain = self.settled(&plain);
-                if plain.0 < bar(&best) {
-                    best = Some((plain, format!("{} → {simple}", last.1.effects[i].label(self.problem.rig))));
+                for (simple, plain) in plainer(&last.1, i, self.library) {
+                    let plain = self.settled(&plain);
+                    if plain.0 < bar(&best) {
+                        best = Some((plain, format!("{} → {simple}", last.1.effects[i].label(self.problem.rig))));
+                    }
                 }
             }
             for (change, fewer) in merged(self.problem, &last.1, self.library) {
@@ -99,7 +100,7 @@ impl Search<'_, '_> {
         }
         let mut best: Option<(Scored, String)> = None;
         for i in 0..last.1.effects.len() {
-            let plain = || plainer(&last.1, i, self.library).map(|(_, plain)| plain);
+            let plain = || plainer(&last.1, i, self.library).into_iter().next().map(|(_, plain)| plain);
             let Some(steady) = steadied(self.problem, &last.1, i, self.library).or_else(plain) else { continue };
             let name = last.1.effects[i].label(self.problem.rig);
             let rest = self.settled(&steady);

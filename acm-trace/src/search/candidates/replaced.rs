@@ -1,9 +1,10 @@
 //! States with an effect in another form: a refinement or the simpler effect in its place, a constant size, one of each actuator.
 
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
-use acm_core::effects::Carrier;
 use acm_core::effects::instance::Instance;
+use acm_core::effects::{Carrier, ParameterSpec};
 
 use super::candidate::{Candidate, candidate};
 use crate::fit::problem::Problem;
@@ -23,18 +24,29 @@ pub fn refinements(problem: &Problem, state: &State, i: usize, library: &[Instan
     library.iter().filter(refines).flat_map(|new| in_place_of(problem, state, i, new)).collect()
 }
 
-/// Returns the state with the simpler effect that effect `i` refines in its place, at the same values.
-pub fn plainer(state: &State, i: usize, library: &[Instance]) -> Option<(String, State)> {
+/// Returns the states with a simpler effect in the place of effect `i`, at the same values, and its name: first the effect that it refines,
+/// then those that refine the same and have some of its parameters only.
+pub fn plainer(state: &State, i: usize, library: &[Instance]) -> Vec<(String, State)> {
     let old = &state.effects[i];
-    let simple = old.instance.effect().traits().refines?;
-    let is_it = |one: &&Instance| one.effect().name() == simple && one.carrier() == old.instance.carrier();
-    let instance = library.iter().find(is_it)?.clone();
-    let value = |name: &str| old.instance.parameters().iter().position(|spec| spec.name == name).map(|j| old.theta[j]);
-    let theta = instance.parameters().iter().map(|spec| value(&spec.name).map_or(spec.neutral, |v| spec.inside(v)));
-    let placed = Placed { theta: theta.collect(), in_calibration: old.in_calibration, instance };
-    let mut next = state.clone();
-    next.effects[i] = std::sync::Arc::new(placed);
-    Some((simple.into(), next))
+    let Some(simple) = old.instance.effect().traits().refines else { return vec![] };
+    let is_known = |spec: &ParameterSpec| old.value(&spec.name).is_some();
+    let has_fewer = |one: &Instance| {
+        one.parameters().len() < old.instance.own_parameters() && one.parameters().iter().all(is_known)
+    };
+    let is_relative = |one: &Instance| one.effect().traits().refines == Some(simple) && has_fewer(one);
+    let beside = || library.iter().filter(|one| one.carrier() == old.instance.carrier());
+    let simplest = beside().filter(|one| one.effect().name() == simple);
+    let with = |instance: &Instance| {
+        let theta = instance
+            .parameters()
+            .iter()
+            .map(|spec| old.value(&spec.name).map_or(spec.neutral, |value| spec.inside(value)));
+        let placed = Placed { theta: theta.collect(), in_calibration: old.in_calibration, instance: instance.clone() };
+        let mut next = state.clone();
+        next.effects[i] = Arc::new(placed);
+        (instance.effect().name().to_string(), next)
+    };
+    simplest.chain(beside().filter(|one| is_relative(one))).map(with).collect()
 }
 
 /// Bows of a value from its line over a signal at first, as a share of the value in the middle.
@@ -71,13 +83,13 @@ pub fn steadied(problem: &Problem, state: &State, i: usize, library: &[Instance]
     if old.instance.is_bowed() {
         let instance = instance.with_context(old.instance.context()?, problem.rig)?;
         let theta = old.theta[..instance.parameters().len()].to_vec();
-        next.effects[i] = std::sync::Arc::new(Placed { theta, in_calibration: old.in_calibration, instance });
+        next.effects[i] = Arc::new(Placed { theta, in_calibration: old.in_calibration, instance });
         return Some(next);
     }
     for (&j, slope) in old.instance.varying().iter().zip(slopes) {
         theta[j] = instance.parameters()[j].inside(theta[j] + slope * 0.5 * (signal.low + signal.high));
     }
-    next.effects[i] = std::sync::Arc::new(Placed { theta, in_calibration: old.in_calibration, instance });
+    next.effects[i] = Arc::new(Placed { theta, in_calibration: old.in_calibration, instance });
     Some(next)
 }
 
@@ -102,14 +114,12 @@ pub fn behind_map(problem: &Problem, state: &State, i: usize, library: &[Instanc
 /// Returns an effect in the place of a simpler one, beginning with its values.
 pub(super) fn in_place_of(problem: &Problem, state: &State, i: usize, new: &Instance) -> Vec<Candidate> {
     let simple = &state.effects[i];
-    let value =
-        |name: &str| simple.instance.parameters().iter().position(|spec| spec.name == name).map(|j| simple.theta[j]);
     let begin = |mut guess: Vec<f64>| {
         let specs = new.parameters().iter();
         guess
             .iter_mut()
             .zip(specs)
-            .for_each(|(own, spec)| *own = value(&spec.name).map_or(*own, |known| spec.inside(known)));
+            .for_each(|(own, spec)| *own = simple.value(&spec.name).map_or(*own, |known| spec.inside(known)));
         guess
     };
     // Beside its neutral values it is the simpler effect, and cannot predict worse.
@@ -156,11 +166,8 @@ pub(super) fn apart(problem: &Problem, state: &State, i: usize, library: &[Insta
 /// 1/((1 + s τ₁)(1 + s τ₂)) with τ = T (ζ ± √(ζ² − 1))/2π.
 pub(super) fn in_a_row(problem: &Problem, state: &State, i: usize, library: &[Instance]) -> Vec<Candidate> {
     let old = &state.effects[i];
-    let value = |name: &str| {
-        let at = old.instance.parameters().iter().position(|spec| spec.name == name)?;
-        Some(old.theta[at])
-    };
-    let (Some(period), Some(damping)) = (value("period"), value("damping").filter(|damping| *damping > 1.0)) else {
+    let overdamped = old.value("damping").filter(|damping| *damping > 1.0);
+    let (Some(period), Some(damping)) = (old.value("period"), overdamped) else {
         return vec![];
     };
     let apart = (damping * damping - 1.0).sqrt();
@@ -188,37 +195,39 @@ pub(super) fn in_a_row(problem: &Problem, state: &State, i: usize, library: &[In
     library.iter().filter(is_lag).filter_map(of).collect()
 }
 
-/// Returns the states with a dead time in the place of two linear filters of the same actuators, and their labels: to first order
+/// Returns the states with a dead time in the place of two linear filters of the same actuators, and what is exchanged: to first order
 /// e^{−Δs} is 1/((1 + τs)(1 + 2ζs/ω + s²/ω²)) with Δ = τ + 2ζ/ω. None where there is a dead time already.
 pub fn merged(problem: &Problem, state: &State, library: &[Instance]) -> Vec<(String, State)> {
-    let late = |placed: &Placed| {
-        let value = |name: &str| {
-            let at = placed.instance.parameters().iter().position(|spec| spec.name == name)?;
-            Some(placed.theta[at])
-        };
-        match placed.instance.effect().name() {
-            LAG => value("tau"),
-            "second_order_lag" => Some(2.0 * value("damping")? * value("period")? / TAU),
-            _ => None,
-        }
-    };
-    let lates: Vec<Option<f64>> = state.effects.iter().map(|placed| late(placed)).collect();
-    let of = |i: usize, j: usize| {
+    if state.effects.iter().any(|placed| placed.instance.effect().name() == DELAY) {
+        return vec![];
+    }
+    let delayed = |i: usize, j: usize| {
         let (one, other) = (&state.effects[i], &state.effects[j]);
         let carrier = one.instance.carrier();
-        let is_it = |new: &&Instance| new.effect().name() == "dead_time" && new.carrier() == carrier;
-        let new = library.iter().find(is_it).filter(|_| other.instance.carrier() == carrier)?;
-        let mut theta: Vec<f64> = new.parameters().iter().map(|spec| spec.neutral).collect();
-        let at = new.parameters().iter().position(|spec| spec.name == "delay")?;
-        theta[at] = new.parameters()[at].inside(lates[i]? + lates[j]?);
-        let placed = Placed { theta, in_calibration: one.in_calibration, instance: new.clone() };
-        let [one, other, new] = [&one.instance, &other.instance, new].map(|instance| instance.label(problem.rig));
-        Some((format!("{one}, {other} → {new}"), state.without(j).without(i).with(placed)))
+        let is_it = |new: &&Instance| new.effect().name() == DELAY && new.carrier() == carrier;
+        let instance = library.iter().find(is_it).filter(|_| other.instance.carrier() == carrier)?.clone();
+        let delay = late(one)? + late(other)?;
+        let of = |spec: &ParameterSpec| if spec.name == "delay" { spec.inside(delay) } else { spec.neutral };
+        let theta = instance.parameters().iter().map(of).collect();
+        let [before, behind, now] = [&one.instance, &other.instance, &instance].map(|one| one.label(problem.rig));
+        let placed = Placed { theta, in_calibration: one.in_calibration, instance };
+        Some((format!("{before}, {behind} → {now}"), state.without(j).without(i).with(placed)))
     };
-    let has_delay = state.effects.iter().any(|placed| placed.instance.effect().name() == "dead_time");
-    let count = if has_delay { 0 } else { state.effects.len() };
-    (0..count).flat_map(|j| (0..j).filter_map(move |i| of(i, j)).collect::<Vec<_>>()).collect()
+    let pairs = (0..state.effects.len()).flat_map(|j| (0..j).map(move |i| (i, j)));
+    pairs.filter_map(|(i, j)| delayed(i, j)).collect()
 }
+
+/// What a linear filter of the actuators is late by to first order, s; none where the effect is none.
+fn late(placed: &Placed) -> Option<f64> {
+    match placed.instance.effect().name() {
+        LAG => placed.value("tau"),
+        "second_order_lag" => Some(2.0 * placed.value("damping")? * placed.value("period")? / TAU),
+        _ => None,
+    }
+}
+
+/// The delay of the actuators.
+const DELAY: &str = "dead_time";
 
 /// The lag that those of a vessel refine.
 const LAG: &str = "actuator_lag";
@@ -238,7 +247,8 @@ mod tests {
     use crate::fit::bench;
     use crate::fit::form::Form;
 
-    /// Oracle: Duffing's equation without its cubic term is that of a damped oscillator with the same period and damping.
+    /// Oracle: Duffing's equation without its cubic term is that of a damped oscillator with the same period and damping, and a brake on
+    /// the mass of a spring leaves Duffing's where it does nothing.
     #[test]
     fn the_simpler_effect_keeps_the_values_that_both_have() {
         let rig = bench::rig(&["q"], &[], &["y"]);
@@ -246,7 +256,7 @@ mod tests {
             let effect = find(name).unwrap();
             effect.carriers(&rig).into_iter().map(move |carrier| (effect, carrier))
         };
-        let names = ["actuator_lag", "second_order_lag", "nonlinear_stiffness"];
+        let names = ["actuator_lag", "second_order_lag", "nonlinear_stiffness", "coulomb_damping"];
         let library: Vec<Instance> = names
             .iter()
             .flat_map(|name| of(name))
@@ -254,11 +264,17 @@ mod tests {
             .collect();
         let (_, carrier) = of("nonlinear_stiffness").next().unwrap();
         let spring = bench::placed("nonlinear_stiffness", carrier, &rig, &[0.4, 0.7, 0.1]);
-        let (name, simple) = plainer(&State::bare(Form::LINEAR).with(spring), 0, &library).unwrap();
+        let states = plainer(&State::bare(Form::LINEAR).with(spring), 0, &library);
+        let [(name, simple)] = &states[..] else { panic!("{states:?}") };
         assert_eq!(name, "second_order_lag");
         assert_eq!(simple.effects[0].instance.effect().name(), name);
         assert_eq!(simple.effects[0].theta[..2], [0.4, 0.7]);
-        assert!(plainer(&simple, 0, &library).is_none());
+        assert!(plainer(simple, 0, &library).is_empty());
+        let braked = bench::placed("coulomb_damping", carrier, &rig, &[0.4, 0.7, 0.1, 0.2]);
+        let states = plainer(&State::bare(Form::LINEAR).with(braked), 0, &library);
+        let found: Vec<&str> = states.iter().map(|(name, _)| name.as_str()).collect();
+        assert_eq!(found, ["second_order_lag", "nonlinear_stiffness"]);
+        assert_eq!(states[1].1.effects[0].theta[..4], [0.4, 0.7, 0.1, 0.2]);
     }
 
     fn problem_of<'a>(rig: &'a acm_core::rig::Rig, series: &'a [crate::series::Series]) -> Problem<'a> {
