@@ -85,6 +85,7 @@ pub const ALL: &[&dyn Effect] = &[
     &frame::misregistration::Misregistration,
     &frame::scale::Scale,
     &output::output_hysteresis::OutputHysteresis,
+    &output::output_prandtl_ishlinskii::OutputPrandtlIshlinskii,
     &output::output_bouc_wen::OutputBoucWen,
     &output::coulomb_friction::CoulombFriction,
     &output::dahl_friction::DahlFriction,

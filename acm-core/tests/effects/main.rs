@@ -15,7 +15,7 @@ use acm_core::rig::Rig;
 use rigs::{Case, all, cases};
 
 /// Names that other programs read.
-const PROMISED: [&str; 53] = [
+const PROMISED: [&str; 54] = [
     "dead_time",
     "actuator_lag",
     "backlash",
@@ -69,6 +69,7 @@ const PROMISED: [&str; 53] = [
     "lugre_friction",
     "asymmetric_lag",
     "output_bouc_wen",
+    "output_prandtl_ishlinskii",
 ];
 
 /// How many samples ahead an effect may see: a rate is the slope of a line through two on either side, or of a parabola
@@ -171,7 +172,8 @@ fn starts_are_inside_and_not_neutral() {
 }
 
 /// Effects on the outputs that add in proportion to their sizes.
-const LINEAR: [&str; 12] = [
+const LINEAR: [&str; 13] = [
+    "output_prandtl_ishlinskii",
     "output_bouc_wen",
     "output_hysteresis",
     "coulomb_friction",

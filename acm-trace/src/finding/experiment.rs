@@ -46,6 +46,7 @@ const FAMILIES: &[Family] = &[
             "dry_friction",
             "output_hysteresis",
             "output_bouc_wen",
+            "output_prandtl_ishlinskii",
             "coulomb_friction",
             "dahl_friction",
             "lugre_friction",

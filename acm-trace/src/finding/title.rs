@@ -5,6 +5,7 @@ pub fn effect_title(name: &str) -> String {
     match name {
         "bouc_wen" => "Bouc–Wen hysteresis".into(),
         "output_bouc_wen" => "Bouc–Wen hysteresis of the outputs".into(),
+        "output_prandtl_ishlinskii" => "Prandtl–Ishlinskii hysteresis of the outputs".into(),
         "prandtl_ishlinskii" => "Prandtl–Ishlinskii play".into(),
         "stribeck_friction" => "Stribeck friction".into(),
         "coulomb_friction" => "Coulomb friction".into(),

@@ -12,5 +12,6 @@ pub(super) mod lugre_friction;
 pub(super) mod measurement;
 pub(super) mod output_bouc_wen;
 pub(super) mod output_hysteresis;
+pub(super) mod output_prandtl_ishlinskii;
 pub(super) mod stribeck_friction;
 pub(super) mod viscous_friction;

@@ -12,7 +12,7 @@ use acm_core::effects::Rig;
 use acm_core::effects::instance::Instance;
 
 use super::Inputs;
-use actuators::{coupling, periodic, prandtl_ishlinskii, ranged, slipping};
+use actuators::{SHARES, coupling, periodic, prandtl_ishlinskii, ranged, slipping, stops};
 use delays::delay;
 use frames::{base_tilt, turned};
 use loads::{ground_effect, jet, load};
@@ -268,6 +268,16 @@ pub fn write(asked: &Asked) -> Option<Body> {
                 "y'_m = y_m + h_m (s - P_r(s)),   P_r the play of radius r",
                 &format!("    const double d = in[{0}] - play_step(in[{0}], v[@N], &m->state[0]);\n", carrier(asked)?),
                 "x[j] += v[j] * d;",
+            )
+        },
+        "output_prandtl_ishlinskii" => Body {
+            memory: array("$name_play", SHARES.len()),
+            needs: vec!["play"],
+            ..with(
+                asked,
+                "y'_m = y_m + sum_i h_mi (s - P_ri(s)),   P_r the play of radius r",
+                &stops(carrier(asked)?),
+                &format!("for (int i = 0; i < {}; ++i) {{ x[j] += v[i * @N + j] * strain[i]; }}", SHARES.len()),
             )
         },
         "output_bouc_wen" => following(

@@ -11,6 +11,12 @@ pub struct Play {
 impl State for Play {}
 
 impl Play {
+    /// Puts the output at `rest` before the first sample; no effect later.
+    #[inline]
+    pub fn begin(&mut self, rest: f64) {
+        self.rest.get_or_insert(rest);
+    }
+
     /// The output at the next sample.
     #[inline]
     pub fn step(&mut self, x: f64, width: f64) -> f64 {

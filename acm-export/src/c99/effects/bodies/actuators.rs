@@ -60,8 +60,30 @@ pub fn slipping(asked: &Asked, shapes: usize, equation: &'static str, size: &str
     Body { memory: array("$name_slip", n), needs: vec!["bouc_wen"], ..plain_body(equation, code) }
 }
 
+/// Widths of plays as shares of the largest.
+pub const SHARES: [f64; 8] = [0.06, 0.14, 0.24, 0.36, 0.5, 0.65, 0.82, 1.0];
+
+/// Strains of elements over a signal that yield at these shares of a travel, which follows their stiffnesses; then the strain at the first
+/// sample over each travel.
+pub fn stops(carrier: usize) -> String {
+    let count = SHARES.len();
+    let shares = SHARES.map(double).join(", ");
+    format!(
+        "    static const double shares[{count}] = {{{shares}}};
+    double strain[{count}];
+    for (int i = 0; i < {count}; ++i) {{
+        const double travel = shares[i] * v[{count} * @N];
+        if (!m->state[i].started) {{
+            m->state[i].rest = in[{carrier}] - v[{count} * @N + 1] * travel;
+            m->state[i].started = 1;
+        }}
+        strain[i] = in[{carrier}] - play_step(in[{carrier}], travel, &m->state[i]);
+    }}
+"
+    )
+}
+
 pub fn prandtl_ishlinskii(asked: &Asked) -> Body {
-    const SHARES: [f64; 8] = [0.06, 0.14, 0.24, 0.36, 0.5, 0.65, 0.82, 1.0];
     let plays = SHARES.len();
     let mut code = String::from("    double before;\n");
     for j in 0..asked.columns {
