@@ -65,6 +65,7 @@ fn effects(rig: &Rig) -> Vec<Term> {
     let (throttle, altitude) = (Carrier::Context(0), Carrier::Context(1));
     let plain = [
         ("measurement_lag", Carrier::Rig),
+        ("measurement_creep", Carrier::Rig),
         ("measurement_drift", Carrier::Rig),
         ("output_hysteresis", Carrier::Actuator(0)),
         ("output_bouc_wen", Carrier::Actuator(0)),

@@ -26,7 +26,7 @@ pub use delay::DelayLine;
 pub use derivatives::{Derivative, Derivatives};
 pub use first_order::{AsymmetricLag, Decays, StickLag, VaryingLag};
 pub use hysteresis::{BoucWen, LuGre, Play, play};
-pub use lag::{Decay, Lag, lag};
+pub use lag::{Decay, Lag, creep, lag};
 pub use last::Last;
 pub use rate_limit::RateLimit;
 pub use second_order_lag::{SecondOrderLag, Swing};

@@ -99,6 +99,7 @@ pub const ALL: &[&dyn Effect] = &[
     &output::context::context_gain::ContextGain,
     &output::measurement::measurement_second_order::MeasurementSecondOrder,
     &output::measurement::measurement_lag::MeasurementLag,
+    &output::measurement::measurement_creep::MeasurementCreep,
     &output::measurement::measurement_delay::MeasurementDelay,
     &output::measurement::measurement_drift::MeasurementDrift,
 ];

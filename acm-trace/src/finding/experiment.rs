@@ -32,7 +32,7 @@ const FAMILIES: &[Family] = &[
         shows: "move one actuator at three speeds that differ by a factor of ten: what is late grows with speed",
     },
     Family {
-        names: &["measurement_lag", "measurement_delay", "measurement_second_order"],
+        names: &["measurement_lag", "measurement_creep", "measurement_delay", "measurement_second_order"],
         within: "tap the tip by hand, or whatever is measured, while the actuators rest",
         shows: "tap the tip by hand, or whatever is measured, while the actuators rest: only the \
                 measurement delays or rounds off what is seen then",

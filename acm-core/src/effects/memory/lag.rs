@@ -5,7 +5,7 @@
 //! ```
 
 use super::beside::Beside;
-use super::{Last, Point, State};
+use super::{Last, Memory, Point, State};
 
 /// The step of the last h and τ: e^{−h/τ}, and τ/h.
 pub type Decay = Last<(f64, f64), (f64, f64)>;
@@ -59,4 +59,16 @@ pub(super) fn relax((y, past, x): (f64, f64, f64), behind: f64, decay: f64) -> f
 pub fn lag(time: &[f64], x: &mut [f64], tau: impl Fn(usize) -> f64) {
     let (mut lag, mut decay) = (Lag::default(), Decay::default());
     x.iter_mut().zip(time).enumerate().for_each(|(t, (x, time))| *x = lag.step(*time, *x, tau(t), &mut decay));
+}
+
+/// Passes columns on, a share of each late: `values` gives the share and τ at each sample.
+pub fn creep(memory: &mut Memory, time: &[f64], values: impl Fn(usize) -> [f64; 2], columns: &mut [Vec<f64>]) {
+    let (lags, mut decay) = (memory.states::<Lag>(columns.len()), Decay::default());
+    for (t, time) in time.iter().enumerate() {
+        let [share, tau] = values(t);
+        for (x, lag) in columns.iter_mut().zip(lags.iter_mut()) {
+            let late = lag.step(*time, x[t], tau, &mut decay);
+            x[t] += share * (late - x[t]);
+        }
+    }
 }

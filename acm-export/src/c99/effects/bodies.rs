@@ -106,12 +106,12 @@ pub fn write(asked: &Asked) -> Option<Body> {
                 "x[j] = asymmetric_lag_step(time, x[j], v[0] * exp_d(v[1]), v[0] * exp_d(-v[1]), &m->state[j]);",
             )
         },
-        "creep" => Body {
+        "creep" | "measurement_creep" => Body {
             memory: array("$name_lag", asked.columns),
             needs: vec!["lag"],
             ..each(
                 asked,
-                "q' = q + c (L[q] - q),   tau dL/dt = q - L",
+                "x' = x + c (L[x] - x),   tau dL/dt = x - L",
                 "const double late = lag_step(time, x[j], v[1], &m->state[j]);\n        x[j] += v[0] * (late - x[j]);",
             )
         },

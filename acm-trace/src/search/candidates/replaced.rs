@@ -94,7 +94,8 @@ pub fn steadied(problem: &Problem, state: &State, i: usize, library: &[Instance]
 }
 
 /// Filters of the actuators, and the same of the outputs.
-const FILTERS: [(&str, &str); 3] = [
+const FILTERS: [(&str, &str); 4] = [
+    ("creep", "measurement_creep"),
     ("actuator_lag", "measurement_lag"),
     ("second_order_lag", "measurement_second_order"),
     ("dead_time", "measurement_delay"),

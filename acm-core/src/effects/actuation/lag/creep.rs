@@ -12,7 +12,7 @@
 //! Findley, Lai & Onaran (1976), Creep and Relaxation of Nonlinear Viscoelastic Materials, ch. 5.
 
 use crate::effects::actuation::actuators;
-use crate::effects::memory::{Decay, Lag};
+use crate::effects::memory::creep;
 use crate::effects::{
     Carrier, Commutes, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, guesses, times,
 };
@@ -55,13 +55,7 @@ impl Effect for Creep {
     }
 
     fn proceed(&self, _: Carrier, values: Values, record: &Record, memory: &mut Memory, columns: &mut [Vec<f64>]) {
-        let (lags, mut decay) = (memory.states::<Lag>(columns.len()), Decay::default());
-        for (t, time) in record.time.iter().enumerate() {
-            for (q, lag) in columns.iter_mut().zip(lags.iter_mut()) {
-                let late = lag.step(*time, q[t], values.at(1, t), &mut decay);
-                q[t] += values.at(0, t) * (late - q[t]);
-            }
-        }
+        creep(memory, &record.time, |t| [0, 1].map(|j| values.at(j, t)), columns);
     }
 
     fn memory(&self, values: Values) -> Option<f64> {
