@@ -69,6 +69,7 @@ fn effects(rig: &Rig) -> Vec<Term> {
         ("measurement_drift", Carrier::Rig),
         ("output_hysteresis", Carrier::Actuator(0)),
         ("output_bouc_wen", Carrier::Actuator(0)),
+        ("vibration_mode", Carrier::Actuator(0)),
         ("output_prandtl_ishlinskii", Carrier::Actuator(0)),
         ("dahl_friction", altitude),
         ("context_lag", altitude),

@@ -174,32 +174,34 @@ fn concluded<'a>(
     joined: &[Series],
     options: &'a Options,
     recorded: Recorded,
-    search: Search<'_, 'a>,
+    mut search: Search<'_, 'a>,
     selected: Selected,
     tell: &mut dyn FnMut(&select::Step),
 ) -> Concluded<'a> {
     let mut others = vec![];
     if recorded.rounds < ROUNDS && !selected.last.effects.is_empty() {
         let plain = recorded.plain(prepared, joined, search.problem);
-        let model = Assembled::new(search.problem, &selected.last).map(|assembled| assembled.model());
-        let histories = model.and_then(|model| histories(&plain, &selected.last, &model));
-        others.extend(histories.map(|histories| {
-            let behind = histories.iter().flatten().count();
-            (
-                format!("start of {behind} trials"),
-                Recorded { histories, rounds: recorded.rounds + 1, ..recorded.clone() },
-            )
-        }));
+        let play = search.with_one_play(&selected.last);
+        for state in std::iter::once(selected.last.clone()).chain(play) {
+            let model = Assembled::new(search.problem, &state).map(|assembled| assembled.model());
+            let histories = model.and_then(|model| histories(&plain, &state, &model));
+            others.extend(histories.map(|histories| {
+                let behind = histories.iter().flatten().count();
+                let other = Recorded { histories, rounds: recorded.rounds + 1, ..recorded.clone() };
+                (format!("start of {behind} trials"), other, state)
+            }));
+        }
     }
     let held = stepwise(&prepared.case);
     if !held.is_empty() && recorded.held.is_empty() && !selected.last.effects.is_empty() {
-        others.push((held_between(prepared, &held), Recorded { held, rounds: ROUNDS, ..recorded.clone() }));
+        let change = held_between(prepared, &held);
+        others.push((change, Recorded { held, rounds: ROUNDS, ..recorded.clone() }, selected.last.clone()));
     }
-    for (change, other) in others {
+    for (change, other, state) in others {
         let [problem, quick] = other.trials(prepared, joined, search.problem.offset_share);
         let mut again = self::search(prepared, options, Trials { problem: &problem, quick: &quick });
-        let before = Found { state: &selected.last, losses: Some(&selected.last_losses) };
-        let found = again.run(&start(prepared), Some(before), &mut *tell);
+        let losses = Some(&selected.last_losses).filter(|_| state.keeps(&selected.last, problem.rig));
+        let found = again.run(&start(prepared), Some(Found { state: &state, losses }), &mut *tell);
         let compared = again.compared(&change, &selected, &found);
         tell(&compared);
         if compared.accepted {

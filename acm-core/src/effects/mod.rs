@@ -86,6 +86,7 @@ pub const ALL: &[&dyn Effect] = &[
     &frame::scale::Scale,
     &output::output_hysteresis::OutputHysteresis,
     &output::output_prandtl_ishlinskii::OutputPrandtlIshlinskii,
+    &output::vibration_mode::VibrationMode,
     &output::output_bouc_wen::OutputBoucWen,
     &output::coulomb_friction::CoulombFriction,
     &output::dahl_friction::DahlFriction,

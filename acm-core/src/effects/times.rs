@@ -4,7 +4,7 @@
 //! | bounds          | Δt/5       | T/3      |
 //! | bounds of what may only begin | Δt/5 | T |
 //! | grid of times   | Δt         | T/3      |
-//! | grid of periods | 4 Δt       | T/3      |
+//! | grid of periods, of vibrations | 4 Δt | T/3 |
 //! | bounds of windows | 0        | T/50     |
 //! | grid of windows | 4 Δt       | T/50     |
 //!
@@ -24,6 +24,12 @@ const MOST: usize = 24;
 
 /// Most points of the grid of periods.
 const MOST_PERIODS: usize = 48;
+
+/// Ratio of neighbours on the grid of vibrations: as wide as the resonance of a damping of 0.04.
+const VIBRATION_RATIO: f64 = 1.08;
+
+/// Most points of the grid of vibrations.
+const MOST_VIBRATIONS: usize = 140;
 
 /// Windows to start from.
 const WINDOWS: usize = 5;
@@ -76,6 +82,11 @@ pub fn grid(rig: &Rig) -> Vec<f64> {
 /// Periods to start from, s.
 pub fn periods(rig: &Rig) -> Vec<f64> {
     geometric((4.0 * step(rig)).min(0.8 * longest(rig)), longest(rig), PERIOD_RATIO, MOST_PERIODS)
+}
+
+/// Periods of light vibrations to start from, s.
+pub fn vibrations(rig: &Rig) -> Vec<f64> {
+    geometric((4.0 * step(rig)).min(0.8 * longest(rig)), longest(rig), VIBRATION_RATIO, MOST_VIBRATIONS)
 }
 
 /// Half a window by which a signal is differentiated, s: at 0 the nearest five samples ([`super::memory::Derivatives`]).

@@ -15,7 +15,7 @@ use acm_core::rig::Rig;
 use rigs::{Case, all, cases};
 
 /// Names that other programs read.
-const PROMISED: [&str; 55] = [
+const PROMISED: [&str; 56] = [
     "dead_time",
     "actuator_lag",
     "backlash",
@@ -71,6 +71,7 @@ const PROMISED: [&str; 55] = [
     "output_bouc_wen",
     "output_prandtl_ishlinskii",
     "measurement_creep",
+    "vibration_mode",
 ];
 
 /// How many samples ahead an effect may see: a rate is the slope of a line through two on either side, or of a parabola
@@ -173,7 +174,8 @@ fn starts_are_inside_and_not_neutral() {
 }
 
 /// Effects on the outputs that add in proportion to their sizes.
-const LINEAR: [&str; 13] = [
+const LINEAR: [&str; 14] = [
+    "vibration_mode",
     "output_prandtl_ishlinskii",
     "output_bouc_wen",
     "output_hysteresis",

@@ -25,6 +25,7 @@ const FAMILIES: &[Family] = &[
             "rate_limit",
             "viscous_friction",
             "inertia",
+            "vibration_mode",
         ],
         within: "move one actuator in fast steps, small and large, and hold for a second after each: a delay shifts \
                  the whole response, a lag rounds it off, a second-order lag overshoots, a rate limit takes longer \

@@ -10,10 +10,10 @@ use super::criteria::Criteria;
 use crate::fit::problem::Problem;
 use crate::fit::state::{Part, Placed, State, part};
 use candidate::{candidate, sloped};
-use replaced::{apart, bowed, in_a_row, in_place_of, is_refined_alike};
+use replaced::{apart, as_vibration, bowed, in_a_row, in_place_of, is_refined_alike};
 
-pub use candidate::{Candidate, new_in};
-pub use replaced::{behind_map, merged, plainer, refinements, steadied};
+pub use candidate::{Candidate, adds_vibration, new_in};
+pub use replaced::{behind_map, merged, plainer, refinements, steadied, with_one_play};
 
 /// Largest number of context signals that sizes may depend on.
 const CONTEXTS: usize = 6;
@@ -68,6 +68,7 @@ pub fn candidates(problem: &Problem, state: &State, library: &[Instance], clock:
     }
     all.extend((0..state.effects.len()).filter_map(|i| apart(problem, state, i, library)));
     all.extend((0..state.effects.len()).flat_map(|i| in_a_row(problem, state, i, library)));
+    all.extend((0..state.effects.len()).flat_map(|i| as_vibration(problem, state, i, library)));
     all.extend((0..state.effects.len()).filter_map(|i| bowed(problem, state, i)).flatten());
     if clock && state.clock == 0.0 && !state.effects.iter().any(|e| e.instance.effect().name() == "dead_time") {
         all.push(clock_candidate(problem, state));

@@ -6,12 +6,13 @@ use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 
 use super::accept::{Tested, least_t, paired_t};
-use super::candidates::price;
+use super::candidates::{new_in, price};
 use super::expand::Tried;
 use super::scan::{Losses, sum};
 use super::scored::LEAST_FALL;
 use super::select::{Scored, Search, Selected, possible};
 use super::step::Step;
+use crate::fit::problem::Problem;
 use crate::fit::state::State;
 
 /// Effects that would have been chosen instead of one.
@@ -85,7 +86,11 @@ fn places(search: &mut Search, settled: &State, last_losses: &Losses) -> Vec<Pla
                 .collect();
             competing.push((label.clone(), last_losses, own_price));
             competing.push((String::new(), &rest.2, price(search.problem, &rest.1, search.criteria)));
-            let equal = equal(&competing);
+            let own_terms = terms(settled, &label, search.problem);
+            let has_no_more = |i: &usize| {
+                rivals.get(*i).is_none_or(|(label, state, _)| terms(state, label, search.problem) <= own_terms)
+            };
+            let equal: Vec<usize> = equal(&competing).into_iter().filter(has_no_more).collect();
             let others = || equal.iter().filter_map(|&i| rivals.get(i)).filter(|(rival, ..)| *rival != label);
             let chosen = Chosen {
                 rise: sum(&rest.2) - sum(last_losses),
@@ -247,6 +252,12 @@ fn resampled(search: &Search, competing: &[(String, &Vec<f64>, f64)]) -> Vec<(St
     all.retain(|(_, share)| *share >= LEAST);
     all.sort_by(|a, b| b.1.total_cmp(&a.1));
     all
+}
+
+/// Returns the number of columns that an effect of a state has: an effect with more of them than another is no equal of it, since some of
+/// them make it one.
+fn terms(state: &State, label: &str, problem: &Problem) -> usize {
+    new_in(label, state, problem.rig).map_or(1, |i| state.effects[i].linear().len() / problem.outputs().max(1)).max(1)
 }
 
 /// Returns the candidates whose mean loss is within one paired standard error of the best, or so little above it that

@@ -3,7 +3,7 @@
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 
-use super::candidates::{Candidate, candidates, new_in, refinements};
+use super::candidates::{Candidate, adds_vibration, candidates, new_in, refinements, with_one_play};
 use super::nuisance;
 use super::scan::{Losses, Scanned, cross_validate, scan, sum};
 use super::scored::{Scored, Search, key};
@@ -32,6 +32,14 @@ impl Search<'_, '_> {
         let settled = (self.score(&losses, &chosen), chosen, losses);
         self.known.insert(key, settled.clone());
         settled
+    }
+
+    /// Returns the best of the sets with one play in the place of a hysteresis of several elements; none where there is no such effect.
+    pub fn with_one_play(&mut self, state: &State) -> Option<State> {
+        let loss = |state: &State| cross_validate(self.quick, state).map_or(f64::INFINITY, |losses| sum(&losses));
+        let all = with_one_play(self.problem, state, self.library);
+        let best = all.into_iter().map(|state| (loss(&state), state)).min_by(|a, b| a.0.total_cmp(&b.0))?;
+        Some(self.settled(&best.1).1)
     }
 
     /// Returns a set with its values refined on all samples, where that predicts better, also as it is saved.
@@ -65,10 +73,16 @@ impl Search<'_, '_> {
         let mut tried: Vec<Tried> =
             all.iter().zip(scanned).filter_map(|(candidate, scanned)| Some(self.tried(candidate, scanned?))).collect();
         tried.sort_by(|a, b| a.score.total_cmp(&b.score));
-        let refined = self.criteria.refined.min(tried.len());
+        // A vibration beside what follows directly looks like any oscillator at first: it takes the place of none.
+        let (vibrations, mut tried): (Vec<Tried>, Vec<Tried>) =
+            tried.into_iter().partition(|one| adds_vibration(&one.label));
+        let first = self.criteria.refined.min(tried.len());
+        let refined = first + vibrations.len().min(1);
+        tried.splice(first..first, vibrations);
         let mut better: Vec<Tried> = tried[..refined].par_iter().map(|one| self.refined(one)).collect();
         better.sort_by(|a, b| a.score.total_cmp(&b.score));
-        let first = &better[..self.criteria.beam.min(refined)];
+        let others = better.iter().filter(|one| !adds_vibration(&one.label));
+        let first: Vec<&Tried> = others.take(self.criteria.beam).collect();
         let further: Vec<Tried> = first.par_iter().flat_map_iter(|one| self.further(one)).collect();
         better.extend(further);
         better.sort_by(|a, b| a.score.total_cmp(&b.score));

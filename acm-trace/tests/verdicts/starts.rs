@@ -92,3 +92,55 @@ fn an_oscillator_may_swing_at_the_start() {
     assert_eq!(names(&finding), ["second_order_lag"], "{}", told(&finding));
     assert!(is_near(&finding, NOISE), "{}", told(&finding));
 }
+
+/// Where a mass on a spring is at each sample that follows a signal from rest, and its speed over ω, by semi-implicit Euler in 2000 steps
+/// between samples.
+fn sprung(q: &[f64], period: f64, damping: f64) -> Vec<[f64; 2]> {
+    let omega = std::f64::consts::TAU / period;
+    let (mut z, mut v) = (q[0], 0.0);
+    let mut all = vec![[z, 0.0]];
+    for pair in q.windows(2) {
+        for n in 0..2000 {
+            let x = pair[0] + (pair[1] - pair[0]) * (f64::from(n) + 0.5) / 2000.0;
+            v += STEP / 2000.0 * (omega * omega * (x - z) - 2.0 * damping * omega * v);
+            z += STEP / 2000.0 * v;
+        }
+        all.push([z, v / omega]);
+    }
+    all
+}
+
+/// Two masses on springs of their own, 3 and 1.1 s, both of which the sensor sees.
+#[test]
+fn vibrations_of_a_structure_add_up() {
+    let bench = straight(vec![]);
+    let finding = traced(&bench, |name, k| {
+        let drive = bench.drive(k, 400, 84, &[]);
+        let [slow, fast] = [(3.0, 0.05), (1.1, 0.03)].map(|(period, damping)| sprung(&drive.q()[0], period, damping));
+        let y = slow.iter().zip(&fast).map(|([z, _], [w, rate])| 4.0 * z + 2.0 * w + rate);
+        bench.trial(name, &drive, &[y.collect()])
+    });
+    let mut periods: Vec<f64> = finding.effects.iter().map(|effect| parameter(effect, "period").value).collect();
+    periods.sort_by(f64::total_cmp);
+    assert!(periods.len() == 2 && (periods[0] / 1.1 - 1.0).abs() < 0.005, "{}", told(&finding));
+    assert!((periods[1] / 3.0 - 1.0).abs() < 0.005, "{}", told(&finding));
+    assert!(names(&finding).contains(&"vibration_mode"), "{}", told(&finding));
+    assert!(is_near(&finding, NOISE), "{}", told(&finding));
+}
+
+/// Six plays of different width in parallel, which the trials begin at one end of.
+#[test]
+fn plays_in_parallel_are_a_hysteresis_of_several_elements() {
+    let bench = straight(vec![]);
+    let finding = traced(&bench, |name, k| {
+        let drive = bench.drive(k, 400, 85, &[]);
+        let widths = [0.05, 0.12, 0.2, 0.3, 0.4, 0.5];
+        let each = widths.map(|width| played(&drive.q()[0], |_| width, -0.9));
+        let y = (0..400).map(|t| each.iter().map(|play| play[t]).sum::<f64>() / 6.0);
+        bench.trial(name, &drive, &[y.collect()])
+    });
+    assert_eq!(names(&finding), ["output_prandtl_ishlinskii"], "{}", told(&finding));
+    let start = parameter(effect(&finding, "output_prandtl_ishlinskii"), "start");
+    assert!((start.value - 0.9).abs() < 0.1, "{start:?}");
+    assert!(finding.errors.after.value < 1.25 * NOISE, "{}", told(&finding));
+}

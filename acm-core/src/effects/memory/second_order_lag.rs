@@ -71,6 +71,11 @@ impl SecondOrderLag {
         self.before = Some(Point { time, x });
         self.go(&stride, past, x)
     }
+
+    /// The speed at the last sample.
+    pub fn speed(&self) -> f64 {
+        self.speed
+    }
 }
 
 impl Beside for SecondOrderLag {

@@ -14,4 +14,5 @@ pub(super) mod output_bouc_wen;
 pub(super) mod output_hysteresis;
 pub(super) mod output_prandtl_ishlinskii;
 pub(super) mod stribeck_friction;
+pub(super) mod vibration_mode;
 pub(super) mod viscous_friction;

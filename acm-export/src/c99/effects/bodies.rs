@@ -280,6 +280,21 @@ pub fn write(asked: &Asked) -> Option<Body> {
                 &format!("for (int i = 0; i < {}; ++i) {{ x[j] += v[i * @N + j] * strain[i]; }}", SHARES.len()),
             )
         },
+        "vibration_mode" => Body {
+            memory: array("$name_spring", 1),
+            needs: vec!["second_order"],
+            ..with(
+                asked,
+                "y'_m = y_m + a_m s + b_m s'/w,   s'' + 2 z w s' + w^2 s = w^2 q,   w = 2 pi/P",
+                &format!(
+                    "    const double unit = v[2 * @N] / 6.283185307179586;
+    const double d = second_order_step(time, in[{}], unit, v[2 * @N + 1], &m->state[0]);
+    const double rate = m->state[0].speed * unit;\n",
+                    carrier(asked)?
+                ),
+                "x[j] += v[j] * d;\n        x[j] += v[@N + j] * rate;",
+            )
+        },
         "output_bouc_wen" => following(
             asked,
             "y'_m = y_m + f_m z,   delta dz = ds - (1 + a)/2 |ds| |z|^(n-1) z - (1 - a)/2 ds |z|^n",

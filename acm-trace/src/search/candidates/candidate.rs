@@ -1,6 +1,7 @@
 //! One more effect in a state: its initial guesses, in its usual place and on the other side of effects that it does not commute with.
 
 use acm_core::effects::instance::Instance;
+use acm_core::effects::{Site, find};
 use acm_core::rig::Rig;
 
 use crate::fit::form::{Form, Powers};
@@ -39,10 +40,21 @@ impl Candidate {
         move |k: usize| ((k / each) as f64 + 0.5 - at).abs() <= NEXT
     }
 
-    /// Returns some of the states, spread over all: enough to test whether any of them is promising.
+    /// Returns some of the states, spread over all: enough to test whether any of them is promising. Of a vibration that adds to the outputs
+    /// all are, since its valley is as narrow as its resonance.
     pub fn coarse(&self) -> impl Iterator<Item = usize> + use<> {
-        (0..self.states.len()).step_by(self.states.len().div_ceil(COARSE).max(1))
+        let few = if adds_vibration(&self.label) { self.states.len() } else { COARSE };
+        (0..self.states.len()).step_by(self.states.len().div_ceil(few.max(1)).max(1))
     }
+}
+
+/// Returns whether a label names a vibration that adds to the outputs.
+pub fn adds_vibration(label: &str) -> bool {
+    let name = label.split('(').next().unwrap_or_default();
+    find(name).is_some_and(|effect| {
+        let traits = effect.traits();
+        effect.site() == Site::Output && traits.is_resonance && !traits.is_output_filter
+    })
 }
 
 /// Returns the index of the effect that a candidate's label names: the last, where the same one is there before it.

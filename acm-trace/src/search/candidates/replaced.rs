@@ -112,6 +112,40 @@ pub fn behind_map(problem: &Problem, state: &State, i: usize, library: &[Instanc
     in_place_of(problem, state, i, new).into_iter().flat_map(|candidate| candidate.states).next()
 }
 
+/// Returns the state with an oscillator of the actuators as a vibration that adds to the outputs, beside another one: of several resonances
+/// none is passed by the whole motion.
+pub(super) fn as_vibration(problem: &Problem, state: &State, i: usize, library: &[Instance]) -> Vec<Candidate> {
+    let old = &state.effects[i].instance;
+    let is_vibration = |one: &Instance| one.effect().name() == VIBRATION;
+    let is_beside = state.effects.iter().any(|placed| is_vibration(&placed.instance));
+    if old.effect().name() != OSCILLATOR || old.context().is_some() || !is_beside {
+        return vec![];
+    }
+    let is_only = problem.rig.actuators.len() == 1;
+    let of = |one: &&Instance| is_vibration(one) && (is_only || one.carrier() == old.carrier());
+    library.iter().filter(of).flat_map(|new| in_place_of(problem, state, i, new)).collect()
+}
+
+/// An oscillator of the actuators, and a vibration that adds to the outputs.
+const OSCILLATOR: &str = "second_order_lag";
+const VIBRATION: &str = "vibration_mode";
+
+/// Forms of hysteresis with elements of several widths.
+const SEVERAL: [&str; 2] = ["prandtl_ishlinskii", "output_prandtl_ishlinskii"];
+
+/// Returns the states with one play in the place of a hysteresis of several elements: a play that begins elsewhere in each trial looks like
+/// them.
+pub fn with_one_play(problem: &Problem, state: &State, library: &[Instance]) -> Vec<State> {
+    let is_several = |&i: &usize| SEVERAL.contains(&state.effects[i].instance.effect().name());
+    let plays = library.iter().filter(|one| one.effect().name() == PLAY);
+    let at = (0..state.effects.len()).filter(is_several);
+    let all = at.flat_map(|i| plays.clone().map(move |play| (i, play)));
+    all.flat_map(|(i, play)| in_place_of(problem, state, i, play)).flat_map(|candidate| candidate.states).collect()
+}
+
+/// One play.
+const PLAY: &str = "backlash";
+
 /// Returns an effect in the place of a simpler one, beginning with its values.
 pub(super) fn in_place_of(problem: &Problem, state: &State, i: usize, new: &Instance) -> Vec<Candidate> {
     let simple = &state.effects[i];
@@ -222,7 +256,7 @@ pub fn merged(problem: &Problem, state: &State, library: &[Instance]) -> Vec<(St
 fn late(placed: &Placed) -> Option<f64> {
     match placed.instance.effect().name() {
         LAG => placed.value("tau"),
-        "second_order_lag" => Some(2.0 * placed.value("damping")? * placed.value("period")? / TAU),
+        OSCILLATOR => Some(2.0 * placed.value("damping")? * placed.value("period")? / TAU),
         _ => None,
     }
 }

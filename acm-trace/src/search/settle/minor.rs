@@ -9,15 +9,15 @@ use crate::search::criteria::Criteria;
 use crate::search::scored::{Scored, Search, Trials};
 use crate::search::select::{Selected, possible};
 
-/// Candidates that are refined for each that is refined for a name.
-const REFINED: usize = 5;
+/// Number of candidates that are refined: more than for a name, since what is small is far down among them.
+const REFINED: usize = 25;
 
 impl Search<'_, '_> {
     /// Returns the set of named effects with minor ones beside them; the set itself where it names nothing, or none passes.
     pub(in crate::search) fn with_minor(&self, selected: &Selected) -> Scored {
         let (named, losses) = (&selected.last, &selected.last_losses);
-        let (price, refined) = (self.criteria.minor * self.criteria.price, REFINED * self.criteria.refined);
-        let criteria = Criteria { price, refined, ..self.criteria.clone() };
+        let price = self.criteria.minor * self.criteria.price;
+        let criteria = Criteria { price, refined: REFINED, ..self.criteria.clone() };
         let trials = Trials { problem: self.problem, quick: self.quick };
         let mut search = Search::new(trials, self.library, &criteria, self.seed, false);
         search.first = self.first;
