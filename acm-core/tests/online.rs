@@ -65,12 +65,9 @@ fn effects(rig: &Rig) -> Vec<Term> {
     let (throttle, altitude) = (Carrier::Context(0), Carrier::Context(1));
     let plain = [
         ("measurement_lag", Carrier::Rig),
-        ("measurement_creep", Carrier::Rig),
         ("measurement_drift", Carrier::Rig),
         ("output_hysteresis", Carrier::Actuator(0)),
         ("output_bouc_wen", Carrier::Actuator(0)),
-        ("vibration_mode", Carrier::Actuator(0)),
-        ("output_prandtl_ishlinskii", Carrier::Actuator(0)),
         ("dahl_friction", altitude),
         ("context_lag", altitude),
         ("misregistration", Carrier::Rig),

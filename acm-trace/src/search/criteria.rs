@@ -66,7 +66,7 @@ impl Default for Criteria {
             beam: 3,
             behind: 2.5,
             cancelled: 5.0,
-            refined: 7,
+            refined: 5,
             degree_share: 0.005,
             resamples: 200,
             sure: 0.95,

@@ -20,6 +20,20 @@ const ITERATIONS: (usize, usize) = (6, 5);
 /// Largest number of steps of a set on all samples.
 const POLISHED: usize = 10;
 
+/// A hysteresis of several elements behind the map, and the same before it.
+const TWINS: [&str; 2] = ["output_prandtl_ishlinskii", "prandtl_ishlinskii"];
+
+/// Moves a hysteresis of several elements before the map to the first `first` candidates where the one behind it is among these: a scan, in
+/// which its weights are not free, says little about it. Returns how many come first then.
+fn with_twin(tried: &mut Vec<Tried>, first: usize) -> usize {
+    let is = |one: &Tried, k: usize| one.label.split('(').next() == Some(TWINS[k]);
+    let twin = tried.iter().position(|one| is(one, 1)).filter(|twin| *twin >= first);
+    let Some(twin) = twin.filter(|_| tried[..first].iter().any(|one| is(one, 0))) else { return first };
+    let twin = tried.remove(twin);
+    tried.insert(first, twin);
+    first + 1
+}
+
 impl Search<'_, '_> {
     /// Returns a state with its values refined and its form chosen again.
     pub fn settled(&mut self, state: &State) -> Scored {
@@ -77,6 +91,7 @@ impl Search<'_, '_> {
         let (vibrations, mut tried): (Vec<Tried>, Vec<Tried>) =
             tried.into_iter().partition(|one| adds_vibration(&one.label));
         let first = self.criteria.refined.min(tried.len());
+        let first = with_twin(&mut tried, first);
         let refined = first + vibrations.len().min(1);
         tried.splice(first..first, vibrations);
         let mut better: Vec<Tried> = tried[..refined].par_iter().map(|one| self.refined(one)).collect();

@@ -15,6 +15,11 @@ pub fn moving(rig: &Rig) -> Vec<Carrier> {
     moving.map(|(j, _)| Carrier::Actuator(j)).chain(moving_contexts(rig)).collect()
 }
 
+/// Those of [`moving`] where there is no arm, whose parts have effects of their own at their places.
+pub fn moving_of_no_arm(rig: &Rig) -> Vec<Carrier> {
+    if rig.arm.is_none() { moving(rig) } else { vec![] }
+}
+
 /// Those of [`moving`] that are positions or angles, or have no unit, for forces that oppose or follow a motion; all where none is,
 /// since any signal may then stand for the motion that was not recorded.
 pub fn motions(rig: &Rig) -> Vec<Carrier> {

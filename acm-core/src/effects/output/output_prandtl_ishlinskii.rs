@@ -55,7 +55,7 @@ impl Effect for OutputPrandtlIshlinskii {
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {
-        carrying::moving(rig)
+        carrying::moving_of_no_arm(rig)
     }
 
     fn parameters(&self, rig: &Rig, carrier: Carrier) -> Vec<ParameterSpec> {

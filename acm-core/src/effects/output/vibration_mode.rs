@@ -54,7 +54,7 @@ impl Effect for VibrationMode {
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {
         let is_driven = |carrier: &Carrier| rig.duration > 0.0 && matches!(carrier, Carrier::Actuator(_));
-        carrying::moving(rig).into_iter().filter(is_driven).collect()
+        carrying::moving_of_no_arm(rig).into_iter().filter(is_driven).collect()
     }
 
     fn parameters(&self, rig: &Rig, carrier: Carrier) -> Vec<ParameterSpec> {

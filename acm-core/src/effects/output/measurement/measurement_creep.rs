@@ -43,7 +43,7 @@ impl Effect for MeasurementCreep {
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {
-        if rig.duration > 0.0 { carrying::any(rig) } else { vec![] }
+        if rig.duration > 0.0 && rig.arm.is_none() { carrying::any(rig) } else { vec![] }
     }
 
     fn parameters(&self, rig: &Rig, _: Carrier) -> Vec<ParameterSpec> {
