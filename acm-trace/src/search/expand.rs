@@ -91,7 +91,8 @@ impl Search<'_, '_> {
         let (vibrations, mut tried): (Vec<Tried>, Vec<Tried>) =
             tried.into_iter().partition(|one| adds_vibration(&one.label));
         let first = self.criteria.refined.min(tried.len());
-        let first = with_twin(&mut tried, first);
+        let has_twin = state.effects.iter().any(|placed| TWINS.contains(&placed.instance.effect().name()));
+        let first = if has_twin { first } else { with_twin(&mut tried, first) };
         let refined = first + vibrations.len().min(1);
         tried.splice(first..first, vibrations);
         let mut better: Vec<Tried> = tried[..refined].par_iter().map(|one| self.refined(one)).collect();
