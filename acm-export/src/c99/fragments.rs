@@ -30,7 +30,8 @@ const FRAGMENTS: &[(&str, &str, &[&str])] = &[
     ("second_order", include_str!("runtime/second_order.c"), &["swing"]),
     ("stick_lag", include_str!("runtime/stick_lag.c"), &["relax"]),
     ("asymmetric_lag", include_str!("runtime/asymmetric_lag.c"), &["relax", "log1p_d"]),
-    ("varying_lag", include_str!("runtime/varying_lag.c"), &["relax"]),
+    ("parts", include_str!("runtime/parts.c"), &[]),
+    ("varying_lag", include_str!("runtime/varying_lag.c"), &["relax", "parts"]),
     ("bent_pace", include_str!("runtime/bent_pace.c"), &["varying_lag"]),
     ("flow_pace", include_str!("runtime/flow_pace.c"), &["varying_lag"]),
     ("bouc_wen", include_str!("runtime/bouc_wen.c"), &["expm1_d", "log1p_d"]),
@@ -38,7 +39,7 @@ const FRAGMENTS: &[(&str, &str, &[&str])] = &[
     ("lugre", include_str!("runtime/lugre.c"), &["exp_d", "expm1_d"]),
     ("slope", include_str!("runtime/slope.c"), &[]),
     ("tanh_d", include_str!("runtime/tanh_d.c"), &["expm1_d"]),
-    ("stiff_lag", include_str!("runtime/stiff_lag.c"), &["swing", "sqrt_d", "sin_cos_d"]),
+    ("stiff_lag", include_str!("runtime/stiff_lag.c"), &["swing", "sqrt_d", "sin_cos_d", "parts"]),
     ("derivative", include_str!("runtime/derivative.c"), &[]),
 ];
 

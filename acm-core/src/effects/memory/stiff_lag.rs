@@ -7,9 +7,9 @@
 //!
 //! It hardens as Duffing's spring does, and softens as gravity does on a pendulum, with −k (z − c)³ as its first term.
 //!
-//! The linear part is exact for an input that is straight over each of [`PARTS`](super::substeps::PARTS) parts of an interval; f is an
-//! input beside x, predicted by its last value and corrected twice, and the friction r is constant over the part ([`Friction`]). Second
-//! order in the part. Over a part of length h from input u₀ to u₁, with the cosine C and sine S of
+//! The linear part is exact for an input that is straight over each part of an interval ([`parts`]); f is an input beside x, predicted by
+//! its last value and corrected by a Newton step, and the friction r is constant over the part ([`Friction`]). Second order in the part.
+//! Over a part of length h from input u₀ to u₁, with the cosine C and sine S of
 //! [`swing`](super::second_order_lag::swing) and b = 2ζ/(ωh):
 //!
 //! ```text
@@ -34,9 +34,6 @@ const FARTHEST: f64 = 30.0;
 
 /// Newton steps to the place where the spring rests; each takes off a third of what a hard one leaves at least.
 const NEWTON: usize = 30;
-
-/// Corrections of f.
-const CORRECTIONS: usize = 2;
 
 /// The spring, k and c, and the friction beside it.
 #[derive(Debug, Clone, Copy)]
@@ -65,23 +62,31 @@ impl Spring {
         (self.hardness < 0.0).then(|| (-6.0 * self.hardness).sqrt())
     }
 
-    /// f.
-    fn pull(self, z: f64) -> f64 {
+    /// f and its slope f'.
+    fn pull(self, z: f64) -> (f64, f64) {
         let out = z - self.rest;
-        self.bend().map_or_else(|| -self.hardness * out.powi(3), |bend| out - (bend * out).sin() / bend)
+        match self.bend() {
+            None => (-self.hardness * out.powi(3), -3.0 * self.hardness * out.powi(2)),
+            Some(bend) => {
+                let (sine, cosine) = (bend * out).sin_cos();
+                (out - sine / bend, 1.0 - cosine)
+            }
+        }
     }
 
-    /// 1 − f'.
-    fn stiffness(self, z: f64) -> f64 {
-        let out = z - self.rest;
-        self.bend().map_or_else(|| 1.0 + 3.0 * self.hardness * out.powi(2), |bend| (bend * out).cos())
+    /// 1/ω of small swings as far out as the input goes, of one 1/ω without hardening.
+    fn unit(self, unit: f64) -> f64 {
+        if self.hardness > 0.0 { unit / (1.0 + 3.0 * self.hardness).sqrt() } else { unit }
     }
 
     /// Returns z at rest behind a constant input, z − f(z) = x, by Newton's method; x where that does not converge.
     fn at_rest(self, x: f64) -> f64 {
-        let newton = |z: f64, _: usize| z + (x + self.pull(z) - z) / self.stiffness(z);
+        let newton = |z: f64, _: usize| {
+            let (pull, slope) = self.pull(z);
+            z + (x + pull - z) / (1.0 - slope)
+        };
         let z = (0..NEWTON).fold(x, newton);
-        let off = (x + self.pull(z) - z).abs();
+        let off = (x + self.pull(z).0 - z).abs();
         if off < 1e-9 && (z - x).abs() < FARTHEST { z } else { x }
     }
 }
@@ -92,11 +97,11 @@ impl StiffLag {
     pub fn step(&mut self, time: f64, x: f64, (unit, damping): (f64, f64), spring: Spring, last: &mut Swing) -> f64 {
         match self.before.filter(|before| time > before.time && unit > 1e-9) {
             Some(before) => {
-                let (h, ends) = parts(before, time, x);
+                let (h, ends) = parts(before, time, x, spring.unit(unit));
                 let part = last.of((h, unit, damping), || Stride::new(h, unit, damping));
-                let mut past = before.x;
+                let (mut past, mut pull) = (before.x, spring.pull(self.z).0);
                 for x in ends {
-                    self.advance(past, x, part, spring);
+                    pull = self.advance(past, x, part, spring, pull);
                     past = x;
                 }
             }
@@ -106,25 +111,28 @@ impl StiffLag {
         self.z
     }
 
-    /// One part, from input `past` to `x`.
-    fn advance(&mut self, past: f64, x: f64, part: Stride, spring: Spring) {
-        let mut pull = spring.pull(self.z);
-        let from = past + pull;
-        let (free, fast) = part.take(self.z, self.speed, from, x);
+    /// One part, from input `past` to `x`, with the pull f at its begin; returns that at its end.
+    fn advance(&mut self, past: f64, x: f64, part: Stride, spring: Spring, pull: f64) -> f64 {
+        let (free, fast) = part.take(self.z, self.speed, past + pull, x);
         let (moves, speeds_up) = part.of_input();
         let (held, braked) = part.take(0.0, 0.0, 1.0, 1.0);
         let friction = spring.friction.over(self.speed + fast + speeds_up * pull, braked);
         let (free, fast) = (free - held * friction, fast - braked * friction);
-        for _ in 0..CORRECTIONS {
-            pull = spring.pull(free + moves * pull);
-        }
-        let (z, speed) = (free + moves * pull, fast + speeds_up * pull);
+        // z = free + moves f(z).
+        let predicted = free + moves * pull;
+        let (near, slope) = spring.pull(predicted);
+        // A soft spring's step goes no farther than twice as far as one without slope.
+        let slope = if moves * slope > 0.5 { 0.5 / moves } else { slope };
+        let correction = moves * (near - pull) / (1.0 - moves * slope);
+        let pull = near + slope * correction;
+        let (z, speed) = (predicted + correction, fast + speeds_up * pull);
         let off = z - x;
-        (self.z, self.speed) = match off.abs() < FARTHEST {
-            true => (z, speed),
-            false if off.is_nan() => (x, 0.0),
-            false => (x + off.clamp(-FARTHEST, FARTHEST), 0.0),
-        };
+        if off.abs() < FARTHEST {
+            (self.z, self.speed) = (z, speed);
+            return pull;
+        }
+        (self.z, self.speed) = (if off.is_nan() { x } else { x + off.clamp(-FARTHEST, FARTHEST) }, 0.0);
+        spring.pull(self.z).0
     }
 }
 

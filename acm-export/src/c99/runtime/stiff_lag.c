@@ -1,28 +1,28 @@
 /* What a spring adds to a linear one: -k (z - c)^3, or below 0 as gravity on a pendulum, (z - c) - sin(b (z - c))/b with
- * b = sqrt(-6 k). The slope of 1 - that is its stiffness. */
-static double stiff_lag_pull(double z, double k, double c, double *stiffness)
+ * b = sqrt(-6 k); its slope with it. */
+static double stiff_lag_pull(double z, double k, double c, double *slope)
 {
     const double o = z - c;
     if (k < 0.0) {
         const double bend = sqrt_d(-6.0 * k);
         double sine, cosine;
         sin_cos_d(bend * o, &sine, &cosine);
-        *stiffness = cosine;
+        *slope = 1.0 - cosine;
         return o - sine / bend;
     }
-    *stiffness = 1.0 + 3.0 * k * o * o;
+    *slope = -3.0 * k * o * o;
     return -k * o * o * o;
 }
 
 /* Place z at which the spring rests behind x, by Newton's method; x where that does not converge. */
 static double stiff_lag_at_rest(double x, double k, double c)
 {
-    double z = x, stiffness;
+    double z = x, slope;
     for (int step = 0; step < 30; ++step) {
-        const double pull = stiff_lag_pull(z, k, c, &stiffness);
-        z += (x + pull - z) / stiffness;
+        const double pull = stiff_lag_pull(z, k, c, &slope);
+        z += (x + pull - z) / (1.0 - slope);
     }
-    const double off = x + stiff_lag_pull(z, k, c, &stiffness) - z;
+    const double off = x + stiff_lag_pull(z, k, c, &slope) - z;
     return off < 1e-9 && off > -1e-9 && z - x < 30.0 && z - x > -30.0 ? z : x;
 }
 
@@ -47,39 +47,43 @@ static double dry_friction_over(double force, double transition, double sum, dou
     return sum < 0.0 ? -r : r;
 }
 
-/* Second-order lag behind a spring: z'' + 2 d w z' + w^2 (z - pull(z) + f z'/sqrt(z'^2 + t^2)) = w^2 x. Four parts of an
- * interval; in each the linear part is exact, the pull is an input beside x, corrected twice, and the friction is constant. z stays within 30 of x. */
+/* Second-order lag behind a spring: z'' + 2 d w z' + w^2 (z - pull(z) + f z'/sqrt(z'^2 + t^2)) = w^2 x. In each part of an
+ * interval the linear part is exact, the pull is an input beside x, corrected by a Newton step, and the friction is constant. z stays
+ * within 30 of x. */
 static double stiff_lag_step(double time, double x, double unit, double damping, double k, double c, double force, double transition,
                              $name_spring *m)
 {
+    double slope;
     if (m->started && time > m->time && unit > 1e-9) {
-        const double h = (time - m->time) / 4.0;
-        double cosine, sine, past = m->x;
+        const int parts = parts_of(time - m->time, k > 0.0 ? unit / sqrt_d(1.0 + 3.0 * k) : unit);
+        const double h = (time - m->time) / (double)parts;
+        double cosine, sine, past = m->x, pull = stiff_lag_pull(m->y, k, c, &slope);
         swing(h / unit, damping, &cosine, &sine);
-        for (int part = 1; part <= 4; ++part) {
-            const double to = part == 4 ? x : m->x + (x - m->x) * (double)part / 4.0;
-            double stiffness;
-            const double before = stiff_lag_pull(m->y, k, c, &stiffness);
-            double pull = before, z = m->y, speed = m->speed, friction = 0.0;
-            for (int pass = 0; pass < 3; ++pass) {
-                const double from = past + before, end = to + pull;
-                const double slope = (end - from) / h, behind = 2.0 * damping * slope * unit;
-                const double e = m->y - from + behind, rate = m->speed - slope;
-                z = end - behind + (cosine + damping * sine) * e + sine * unit * rate;
-                speed = slope + (cosine - damping * sine) * rate - sine / unit * e;
-                if (pass == 0) {
-                    friction = dry_friction_over(force, transition, m->speed + speed, sine / unit);
-                }
-                z -= (1.0 - cosine - damping * sine) * friction;
-                speed -= sine / unit * friction;
-                pull = stiff_lag_pull(z, k, c, &stiffness);
+        const double stays = cosine + damping * sine, keeps = cosine - damping * sine, behind = 2.0 * damping * unit;
+        /* What an input that is larger by 1 at the end of a part adds to z and to its speed. */
+        const double moves = 1.0 + (behind * (stays - 1.0) - sine * unit) / h;
+        const double speeds_up = (1.0 - keeps - sine / unit * behind) / h;
+        for (int part = 1; part <= parts; ++part) {
+            const double to = part == parts ? x : m->x + (x - m->x) * (double)part / (double)parts;
+            const double from = past + pull, off = m->y - from, rise = to - from;
+            double free = to + stays * off + sine * unit * m->speed + (moves - 1.0) * rise;
+            double fast = keeps * m->speed - sine / unit * off + speeds_up * rise;
+            const double friction = dry_friction_over(force, transition, m->speed + fast + speeds_up * pull, sine / unit);
+            free -= (1.0 - stays) * friction;
+            fast -= sine / unit * friction;
+            const double predicted = free + moves * pull, near = stiff_lag_pull(predicted, k, c, &slope);
+            if (moves * slope > 0.5) {
+                slope = 0.5 / moves;
             }
+            const double correction = moves * (near - pull) / (1.0 - moves * slope), z = predicted + correction;
+            pull = near + slope * correction;
             if (z - to < 30.0 && z - to > -30.0) {
                 m->y = z;
-                m->speed = speed;
+                m->speed = fast + speeds_up * pull;
             } else {
                 m->y = z == z ? (z > to ? to + 30.0 : to - 30.0) : to;
                 m->speed = 0.0;
+                pull = stiff_lag_pull(m->y, k, c, &slope);
             }
             past = to;
         }

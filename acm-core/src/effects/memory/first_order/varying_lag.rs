@@ -1,8 +1,7 @@
 //! First-order lag whose time constant depends on its input and on where it is: τ b(x, z) ż = x − z; at rest at the first sample.
 //!
-//! Over each of [`crate::effects::memory::substeps::PARTS`] parts of an interval the lag is exact for a constant τ, which is that of the
-//! means of x and of z at both ends, found by two passes. Every pass draws z towards the input, so it is stable for every step; second
-//! order in the part.
+//! Over each part of an interval ([`parts`]) the lag is exact for a constant τ, which is that of the means of x and of z at both ends, found
+//! by two passes. Every pass draws z towards the input, so it is stable for every step; second order in the part.
 
 use crate::effects::memory::lag::relax;
 use crate::effects::memory::substeps::parts;
@@ -26,7 +25,7 @@ impl VaryingLag {
     pub fn step<B: Fn(f64) -> f64>(&mut self, time: f64, x: f64, tau: f64, paces: impl Fn(f64) -> B) -> f64 {
         match self.before.filter(|before| time > before.time && tau > 1e-9) {
             Some(before) => {
-                let (h, ends) = parts(before, time, x);
+                let (h, ends) = parts(before, time, x, tau * paces(x)(self.z));
                 let (slope, mut past) = ((x - before.x) / (time - before.time), before.x);
                 for x in ends {
                     let (start, pace) = (self.z, paces(0.5 * (past + x)));
@@ -83,7 +82,7 @@ mod tests {
             |x, z| 0.5 * ((1.0 + 0.95 * x).sqrt() + (1.0 + 0.95 * z).sqrt()),
         ];
         for (k, pace) in paces.into_iter().enumerate() {
-            let (coarse, fine) = (worst(0.15, pace), worst(0.075, pace));
+            let (coarse, fine) = (worst(0.012, pace), worst(0.006, pace));
             let order = (coarse / fine).log2();
             assert!(coarse < 1e-3 && (order - 2.0).abs() < 0.3, "{k}: {coarse:.1e}, order {order:.2}");
         }

@@ -43,9 +43,9 @@ impl Friction {
         let mut r = if brakes * most > size { size / brakes } else { most };
         for _ in 0..STEPS {
             let speed = size - brakes * r;
-            let square = speed * speed + wide;
-            let steep = self.force / square.sqrt();
-            let step = (r - steep * speed) / (1.0 + brakes * steep * wide / square);
+            let share = 1.0 / (speed * speed + wide);
+            let steep = self.force * share.sqrt();
+            let step = (r - steep * speed) / (1.0 + brakes * steep * wide * share);
             r -= step;
             if step.abs() <= FOUND * self.force {
                 break;
