@@ -5,8 +5,8 @@
 //! | bounds of what may only begin | Δt/5 | T |
 //! | grid of times   | Δt         | T/3      |
 //! | grid of periods, of vibrations | 4 Δt | T/3 |
-//! | bounds of windows | 0        | T/50     |
-//! | grid of windows | 4 Δt       | T/50     |
+//! | bounds of windows | 0        | T/25     |
+//! | grid of windows | 4 Δt       | T/25     |
 //!
 //! `Δt` is the median time between samples and `T` the longest trial, both s ([`Rig`]). What is faster than Δt/5 leaves no
 //! trace between two samples; of what is slower than T/3 too little is seen to tell it from a drift.
@@ -101,9 +101,9 @@ pub fn windows(rig: &Rig) -> Vec<f64> {
     if narrowest < widest { spread(narrowest, widest, WINDOWS) } else { vec![widest] }
 }
 
-/// A fiftieth of the trial: what is smoothed away by more is the motion itself.
+/// A 25th of the trial: what a quartic smoothes away in more is the motion itself.
 fn widest(rig: &Rig) -> f64 {
-    trial(rig) / 50.0
+    trial(rig) / 25.0
 }
 
 /// From `low` to `high`, neighbours at no more than `ratio`, or at what `most` points allow.

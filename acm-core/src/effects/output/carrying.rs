@@ -47,7 +47,7 @@ pub fn signal(record: &Record, carrier: Carrier) -> Option<&[f64]> {
     }
 }
 
-/// What `of` makes of the derivatives of the carrier's signal, by a parabola through a window of half a width of `window`, s.
+/// What `of` makes of the derivatives of the carrier's signal, by a polynomial through a window of half a width of `window`, s.
 pub fn derivative<'m>(
     record: &Record,
     carrier: Carrier,
@@ -58,8 +58,8 @@ pub fn derivative<'m>(
     following(record, carrier, window, memory, |(): &mut (), _, derivative| of(derivative))
 }
 
-/// What `step` makes, with a state of its own, of one sample after another of the carrier's signal: of its index, and of the parabola through
-/// a window of half a width of `window`, s.
+/// What `step` makes, with a state of its own, of one sample after another of the carrier's signal: of its index, and of the polynomial
+/// through a window of half a width of `window`, s.
 pub fn following<'m, S: State>(
     record: &Record,
     carrier: Carrier,
@@ -72,16 +72,12 @@ pub fn following<'m, S: State>(
     let (states, column) = memory.states_and_column::<Follower<S>>(1);
     let Follower { derivatives, state } = states.first_mut()?;
     column.clear();
-    let whole = is_whole.then(|| record.derived.of(&record.time, signal, window));
-    let parabolas = match &whole {
-        Some(parabolas) => parabolas,
-        None => derivatives.of(&record.time, signal, window),
-    };
-    column.extend(parabolas.iter().enumerate().map(|(t, parabola)| step(state, t, parabola)));
+    let found = record.derivatives(signal, window, (!is_whole).then_some(derivatives));
+    column.extend(found.iter().enumerate().map(|(t, found)| step(state, t, found)));
     Some(column)
 }
 
-/// A state that follows the parabolas through a signal.
+/// A state that follows the polynomials through a signal.
 #[derive(Debug, Default)]
 struct Follower<S> {
     derivatives: Derivatives,

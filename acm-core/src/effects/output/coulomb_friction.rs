@@ -6,7 +6,7 @@
 //!
 //! | symbol | meaning                                                                  | unit                |
 //! | `f_m`  | friction, one for each output                                            | of the output       |
-//! | `ṡ`    | rate of the signal, by a parabola through a window ([`crate::effects::memory::Derivatives`]) | of the signal per s |
+//! | `ṡ`    | rate of the signal, by a quartic through a window ([`crate::effects::memory::Derivatives`]) | of the signal per s |
 //! | `v`    | speed over which it turns round                                          | of the signal per s |
 //! | `h`    | half the window                                                          | s                   |
 //!

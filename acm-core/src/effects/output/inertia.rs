@@ -6,7 +6,7 @@
 //!
 //! | symbol | meaning                                                               | unit                               |
 //! | `μ_m`  | mass, one for each output                                             | of the output per unit and second² |
-//! | `s̈`    | second derivative of the signal, by a parabola through a window ([`crate::effects::memory::Derivatives`]) | per s² |
+//! | `s̈`    | second derivative of the signal, by a quartic through a window ([`crate::effects::memory::Derivatives`]) | per s² |
 //! | `h`    | half that window                                                      | s                                  |
 //!
 //! Newton's second law; Armstrong-Hélouvry, Dupont & Canudas de Wit (1994), Automatica 30(7), for its place beside friction.

@@ -6,7 +6,7 @@
 //!
 //! | symbol | meaning                                                                     | unit                |
 //! | `f_m`  | friction of fast sliding, one for each output                               | of the output       |
-//! | `v`    | speed of the signal that carries the friction, by parabolas through windows | of the signal per s |
+//! | `v`    | speed of the signal that carries the friction, by quartics through windows | of the signal per s |
 //! | `d`    | deflection of the bristles, in units of that of fast sliding                | 1                   |
 //! | `δ`    | presliding length                                                           | of the signal       |
 //! | `r`    | what breaking away takes beyond sliding, 0 to 3                             | 1                   |

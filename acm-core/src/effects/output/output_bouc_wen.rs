@@ -12,7 +12,7 @@
 //! | `a`    | asymmetry (β − γ)/(β + γ) of loading and unloading                       | 1             |
 //! | `n`    | exponent, 1 to 3: the larger, the more suddenly it yields                | 1             |
 //! | `z_0`  | state at the first sample, −1 to 1: what was done to the rig before it   | 1             |
-//! | `s̃`    | the signal by a parabola through a window around each sample             | its own       |
+//! | `s̃`    | the signal by a quartic through a window around each sample             | its own       |
 //! | `h`    | window: half its width; the signal as it is at 0                         | s             |
 //!
 //! In units of saturation, so that |z| ≤ 1. At a = 1, n = 1, z_0 = 0 and h = 0 it is `dahl_friction`, and with a larger n it would come to

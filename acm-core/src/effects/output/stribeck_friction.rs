@@ -6,7 +6,7 @@
 //!
 //! | symbol | meaning                                                                  | unit                |
 //! | `s_m`  | what breaking away adds, one for each output                             | of the output       |
-//! | `ṡ`    | rate of the signal, by a parabola through a window ([`crate::effects::memory::Derivatives`]) | of the signal per s |
+//! | `ṡ`    | rate of the signal, by a quartic through a window ([`crate::effects::memory::Derivatives`]) | of the signal per s |
 //! | `v`    | Stribeck's speed, over which it falls off                                | of the signal per s |
 //! | `h`    | half the window                                                          | s                   |
 //!

@@ -6,7 +6,7 @@
 //!
 //! | symbol | meaning                                             | unit                              |
 //! | `c_m`  | damping, one for each output                        | of the output per unit and second |
-//! | `ṡ`    | rate of the signal, by a parabola through a window ([`crate::effects::memory::Derivatives`]) | per s |
+//! | `ṡ`    | rate of the signal, by a quartic through a window ([`crate::effects::memory::Derivatives`]) | per s |
 //! | `h`    | half that window                                    | s                                 |
 //!
 //! Armstrong-Hélouvry, Dupont & Canudas de Wit (1994), Automatica 30(7).

@@ -303,7 +303,7 @@ impl Effect for Own {
         columns: &mut [Vec<f64>],
     ) {
         let Some(parameters) = self.of(carrier) else { return };
-        let start = memory.start(&record.time);
+        let (start, is_whole) = (memory.start(&record.time), memory.is_whole());
         let [track] = memory.states::<Track>(1) else { return };
         let signal = |input: &Carrier| match if *input == Carrier::Rig { carrier } else { *input } {
             Carrier::Rig => None,
@@ -324,7 +324,8 @@ impl Effect for Own {
                         .as_ref()
                         .and_then(|name| self.definition.parameters.keys().position(|p| p == name));
                     let window = window.map_or(0.0, |p| values.at(parameters.slots[p].0, 0));
-                    let found = track.derivatives[k].of(&record.time, signal, window);
+                    let stream = (!is_whole).then_some(&mut track.derivatives[k]);
+                    let found = record.derivatives(signal, window, stream);
                     track.derived[k].clear();
                     track.derived[k].extend(found.iter().map(|d| match derivative {
                         Derived::Rate => d.rate,

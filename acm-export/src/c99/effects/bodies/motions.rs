@@ -1,5 +1,5 @@
-//! Effects of the speed, the acceleration or the smoothed value of a signal on the outputs. All come from a parabola through a window that
-//! ends at the newest sample, as in acm-stream.
+//! Effects of the speed, the acceleration or the smoothed value of a signal on the outputs. All come from a parabola through half a window
+//! that ends at the newest sample, as in acm-stream.
 
 use super::pieces::{array, carrier};
 use super::rings::Ring;
@@ -37,7 +37,7 @@ fn windowed(
     state: &str,
 ) -> Option<Body> {
     let (number, n, window) = (asked.number, asked.columns, asked.columns + shapes);
-    let ring = Ring::of_window(asked.theta[window].max(0.0));
+    let ring = Ring::of_window(0.5 * asked.theta[window].max(0.0));
     let memory = format!(
         "    int first, count;\n    double time[$NAME_EFFECT_{number}_ROOM];\n    double x[$NAME_EFFECT_{number}_ROOM];\n{state}"
     );
@@ -59,7 +59,7 @@ const MOTION: &str = "\
     m->time[newest] = time;
     m->x[newest] = in[@SIGNAL];
     m->count += 1;
-    derivative(m->time, m->x, m->first, m->count, $NAME_EFFECT_@K_ROOM, v[@WINDOW], d);
+    derivative(m->time, m->x, m->first, m->count, $NAME_EFFECT_@K_ROOM, 0.5 * v[@WINDOW], d);
     share = @SHARE;
     for (int j = 0; j < @N; ++j) {
         x[j] += v[j] * share;
