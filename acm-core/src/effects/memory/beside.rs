@@ -1,7 +1,7 @@
 //! Columns with the same time stamps that pass through one linear filter, side by side: a step is computed once for all, and several
 //! columns go through it together.
 
-use super::{Point, State};
+use super::{Last, Point, State, interval};
 
 /// Columns that go together.
 const TOGETHER: usize = 4;
@@ -12,7 +12,7 @@ const AHEAD: usize = 64;
 /// A linear filter with a state for each column.
 pub trait Beside: State + Copy {
     /// Parameters of the filter.
-    type Shape: Copy;
+    type Shape: Copy + PartialEq;
     /// A step: what it does to any signal.
     type Stride: Copy + Default;
 
@@ -29,11 +29,12 @@ pub trait Beside: State + Copy {
 /// Passes all columns through a filter with a state for each; `shape` gives its parameters at each sample.
 pub fn pass<F: Beside>(lags: &mut [F], time: &[f64], shape: impl Fn(usize) -> F::Shape, columns: &mut [Vec<f64>]) {
     let mut last = lags.first_mut().and_then(|lag| *lag.before()).map(|before| before.time);
-    let mut strides = [F::Stride::default(); AHEAD];
+    let (mut strides, mut known) = ([F::Stride::default(); AHEAD], Last::default());
     for (part, time) in time.chunks(AHEAD).enumerate() {
         let first = part * AHEAD;
         for (k, (stride, now)) in strides.iter_mut().zip(time).enumerate() {
-            *stride = F::stride(last.map_or(0.0, |last| now - last), shape(first + k));
+            let (h, shape) = (last.map_or(0.0, |last| interval(last, *now)), shape(first + k));
+            *stride = known.of((h, shape), || F::stride(h, shape));
             last = Some(*now);
         }
         let strides = &strides[..time.len()];

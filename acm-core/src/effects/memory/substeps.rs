@@ -1,6 +1,6 @@
 //! Parts of the interval between two samples, for equations that have no closed solution over it.
 
-use super::Point;
+use super::{Point, interval};
 
 /// Most parts of an interval.
 const MOST: usize = 4;
@@ -12,7 +12,7 @@ const SHORT: f64 = 0.1;
 /// Signal at the ends of each part of the interval up to the sample `(time, x)`; the length of a part, s, before them. There are 1, 2 or
 /// [`MOST`] parts, the fewest that are short beside a `constant` in s.
 pub fn parts(before: Point, time: f64, x: f64, constant: f64) -> (f64, impl Iterator<Item = f64>) {
-    let h = time - before.time;
+    let h = interval(before.time, time);
     let is_short = |count: &usize| h <= SHORT * constant * *count as f64;
     let count = [1, 2].into_iter().find(is_short).unwrap_or(MOST);
     let at = move |k: usize| if k == count { x } else { before.x + (x - before.x) * k as f64 / count as f64 };
