@@ -55,7 +55,7 @@ impl Effect for OutputPrandtlIshlinskii {
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {
-        carrying::moving_of_no_arm(rig)
+        if rig.arm.is_none() { carrying::motions(rig) } else { vec![] }
     }
 
     fn parameters(&self, rig: &Rig, carrier: Carrier) -> Vec<ParameterSpec> {
