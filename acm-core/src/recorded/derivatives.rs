@@ -38,3 +38,23 @@ impl Record {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Oracle: by hand: a signal that turns into a straight line three quarters of a window ago has the rate of the line in a stream, and
+    /// another in a parabola through the whole window.
+    #[test]
+    fn a_stream_looks_back_half_a_window() {
+        let time: Vec<f64> = (0..200).map(|k| 0.01 * f64::from(k)).collect();
+        let signal: Vec<f64> = time.iter().map(|t| 3.0 * (t - 1.24).max(0.0)).collect();
+        let record = Record::new(time, vec![signal.clone()], vec![], vec![]);
+        let newest = |window: f64| {
+            let mut stream = Derivatives::default();
+            record.derivatives(&signal, window, Some(&mut stream)).last().map_or(0.0, |found| found.rate)
+        };
+        assert!((newest(1.0) - 3.0).abs() < 1e-9, "{}", newest(1.0));
+        assert!((newest(2.0) - 3.0).abs() > 0.05, "{}", newest(2.0));
+    }
+}

@@ -74,7 +74,7 @@ impl Spring {
         }
     }
 
-    /// 1/ω of small swings as far out as the input goes, of one 1/ω without hardening.
+    /// 1/ω of small swings about z − c = 1, where a hard spring is stiffest within the range; `unit` is that of the linear one.
     fn unit(self, unit: f64) -> f64 {
         if self.hardness > 0.0 { unit / (1.0 + 3.0 * self.hardness).sqrt() } else { unit }
     }

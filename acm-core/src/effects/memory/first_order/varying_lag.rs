@@ -85,6 +85,8 @@ mod tests {
             let (coarse, fine) = (worst(0.012, pace), worst(0.006, pace));
             let order = (coarse / fine).log2();
             assert!(coarse < 1e-3 && (order - 2.0).abs() < 0.3, "{k}: {coarse:.1e}, order {order:.2}");
+            // Of 1, 2 or 4 parts.
+            assert!([0.15, 0.06, 0.03].iter().all(|step| worst(*step, pace) < 2e-3), "{k}");
         }
         assert!(worst(0.15, |_, _| 1.0) < 1e-9, "of a constant time constant it is exact");
     }
