@@ -12,7 +12,7 @@
 //!
 //! It predicts a whole trial at a time, since effects remember, or sample by sample ([`OnlineModel`]).
 
-mod hold;
+mod between;
 mod online;
 mod origin;
 mod point;
@@ -32,7 +32,7 @@ use crate::polynomial::Polynomial;
 use crate::response::Response;
 use crate::rig::Rig;
 use crate::static_map::StaticMap;
-use crate::{clock_corrected, held};
+use crate::{InterSample, clock_corrected};
 
 /// A model that can be saved, loaded and trained upon.
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -60,6 +60,33 @@ struct Stored {
     /// Names of the actuators that are held between samples.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     zero_order_hold: Vec<String>,
+    /// Names of the actuators that follow a quartic between samples.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    quartic_interpolation: Vec<String>,
+}
+
+impl Stored {
+    fn new(
+        rig: Rig,
+        nominal: NominalModel,
+        stands_for: Option<Polynomial>,
+        static_map: Option<StaticMap>,
+        effects: Vec<Term>,
+    ) -> Self {
+        let (zero_order_hold, quartic_interpolation) = (vec![], vec![]);
+        let (origin, clock_correction) = (None, None);
+        Self {
+            rig,
+            nominal,
+            stands_for,
+            static_map,
+            effects,
+            origin,
+            clock_correction,
+            zero_order_hold,
+            quartic_interpolation,
+        }
+    }
 }
 
 impl AugmentedModel {
@@ -74,8 +101,7 @@ impl AugmentedModel {
         static_map: Option<StaticMap>,
         effects: Vec<Term>,
     ) -> Result<Self, String> {
-        let (origin, clock_correction, zero_order_hold) = (None, None, vec![]);
-        Stored { rig, nominal, stands_for, static_map, effects, origin, clock_correction, zero_order_hold }.try_into()
+        Stored::new(rig, nominal, stands_for, static_map, effects).try_into()
     }
 
     /// Model from parts that are already checked: effects with their values, in the order of action.
@@ -87,9 +113,7 @@ impl AugmentedModel {
     ) -> Self {
         let terms = effects.iter().map(|(instance, theta)| instance.term(theta)).collect();
         let (nominal, static_map) = (response.model().clone(), response.map().cloned());
-        let (origin, clock_correction, zero_order_hold) = (None, None, vec![]);
-        let stored =
-            Stored { rig, nominal, stands_for, static_map, effects: terms, origin, clock_correction, zero_order_hold };
+        let stored = Stored::new(rig, nominal, stands_for, static_map, terms);
         Self { stored, response, instances: effects.into_iter().map(|(instance, _)| instance).collect() }
     }
 
@@ -123,16 +147,27 @@ impl AugmentedModel {
         self
     }
 
-    /// Actuators that are held between samples ([`held`](crate::held())). Others go straight from sample to sample.
-    pub fn held(&self) -> Vec<usize> {
-        let actuators = self.stored.rig.actuators.iter().enumerate();
-        actuators.filter(|(_, q)| self.stored.zero_order_hold.contains(&q.name)).map(|(a, _)| a).collect()
+    /// What the actuators do between samples.
+    pub fn inter_sample(&self) -> InterSample {
+        let of = |names: &[String]| -> Vec<usize> {
+            let actuators = self.stored.rig.actuators.iter().enumerate();
+            actuators.filter(|(_, q)| names.contains(&q.name)).map(|(a, _)| a).collect()
+        };
+        match (of(&self.stored.zero_order_hold), of(&self.stored.quartic_interpolation)) {
+            (held, _) if !held.is_empty() => InterSample::Held(held),
+            (_, quartic) if !quartic.is_empty() => InterSample::Quartic(quartic),
+            _ => InterSample::Straight,
+        }
     }
 
-    /// Holds these actuators between samples.
+    /// Takes actuators so between samples.
     #[must_use]
-    pub fn with_held(mut self, actuators: &[usize]) -> Self {
-        self.stored.zero_order_hold = actuators.iter().map(|&a| self.stored.rig.actuators[a].name.clone()).collect();
+    pub fn with_inter_sample(mut self, inter_sample: &InterSample) -> Self {
+        let names: Vec<String> =
+            inter_sample.actuators().iter().map(|&a| self.stored.rig.actuators[a].name.clone()).collect();
+        let is_quartic = matches!(inter_sample, InterSample::Quartic(_));
+        let (held, quartic) = if is_quartic { (vec![], names) } else { (names, vec![]) };
+        (self.stored.zero_order_hold, self.stored.quartic_interpolation) = (held, quartic);
         self
     }
 
@@ -163,11 +198,11 @@ impl AugmentedModel {
 
     /// Outputs [T×M] of a trial; `predicted` [T×M] where the nominal prediction comes with the data.
     pub fn predict(&self, record: &Record, predicted: Option<&DMatrix<f64>>) -> DMatrix<f64> {
-        let actuators = self.held();
-        if actuators.is_empty() {
+        let inter_sample = self.inter_sample();
+        if inter_sample == InterSample::Straight {
             return self.predict_between(record, predicted);
         }
-        let (all, rows) = held(record, &actuators);
+        let (all, rows) = inter_sample.of(record);
         let corresponding: Option<DMatrix<f64>> = predicted.map(|predicted| {
             let row = |r: usize| rows.partition_point(|row| *row < r);
             DMatrix::from_fn(all.samples(), predicted.ncols(), |r, o| predicted[(row(r), o)])
@@ -175,7 +210,7 @@ impl AugmentedModel {
         self.predict_between(&all, corresponding.as_ref()).select_rows(&rows)
     }
 
-    /// Outputs [T×M] of a record in which actuators are already as they are between samples ([`held`](crate::held())).
+    /// Outputs [T×M] of a record in which actuators are already as they are between samples ([`InterSample::of`]).
     pub fn predict_between(&self, record: &Record, predicted: Option<&DMatrix<f64>>) -> DMatrix<f64> {
         let rows: Vec<usize> = (0..record.samples()).collect();
         let theta: Vec<&[f64]> = self.stored.effects.iter().map(|term| term.values.as_slice()).collect();
@@ -284,8 +319,16 @@ impl TryFrom<Stored> for AugmentedModel {
             return Err(format!("the clock correction is {c} s; it must be a finite time"));
         }
         let known = |name: &&String| stored.rig.actuators.iter().any(|q| q.name == **name);
-        if let Some(name) = stored.zero_order_hold.iter().find(|name| !known(name)) {
-            return Err(format!("`zero_order_hold` names {name}, which is none of the rig's actuators"));
+        let (held, quartic) = (&stored.zero_order_hold, &stored.quartic_interpolation);
+        for (key, names) in [("zero_order_hold", held), ("quartic_interpolation", quartic)] {
+            if let Some(name) = names.iter().find(|name| !known(name)) {
+                return Err(format!("`{key}` names {name}, which is none of the rig's actuators"));
+            }
+        }
+        if !held.is_empty() && !quartic.is_empty() {
+            return Err(
+                "`zero_order_hold` and `quartic_interpolation` both name actuators; name some in one of them".into()
+            );
         }
         let down = stored.rig.arm.as_ref().map(|arm| arm.down);
         let response = Response::new(stored.nominal.clone(), stored.static_map.clone(), down);

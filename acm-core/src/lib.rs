@@ -71,7 +71,8 @@ pub use fitting::{calibration, least_squares, levenberg_marquardt, observations,
 pub use kinematics::{axis, grid, se3, shape, strain};
 pub use nominal::{NominalModel, NominalSpec};
 pub use recorded::clock_correction::clock_corrected;
-pub use recorded::held::{AHEAD, held, resting, turning};
+pub use recorded::inter_sample::{self, InterSample};
+pub use recorded::starts::{resting, turning};
 pub use recorded::{record, rig, slope};
 pub use tip_model::StrainModel;
 

@@ -3,7 +3,8 @@
 pub mod clock_correction;
 mod derivatives;
 mod derived;
-pub mod held;
+pub mod inter_sample;
 pub mod record;
 pub mod rig;
 pub mod slope;
+pub mod starts;

@@ -1,5 +1,6 @@
 //! Conversion of a search state to the model that is saved; both predict the same.
 
+use acm_core::InterSample;
 use acm_core::actuation::Monomials;
 use acm_core::augmented::AugmentedModel;
 use acm_core::effects::instance::Instance;
@@ -25,8 +26,8 @@ pub struct Assembled {
     pub effects: Vec<(Instance, Vec<f64>)>,
     /// Delay of the actuators' time stamps, s.
     pub clock: f64,
-    /// Actuators that are held between samples.
-    pub held: Vec<usize>,
+    /// What actuators do between samples.
+    pub inter_sample: InterSample,
     /// Polynomial that approximates the given prediction.
     stands_for: Option<Polynomial>,
     rig: acm_core::rig::Rig,
@@ -50,7 +51,7 @@ impl Assembled {
             response,
             effects: state.effects.iter().map(|e| (e.instance.clone(), e.theta.clone())).collect(),
             clock: state.clock,
-            held: problem.held().to_vec(),
+            inter_sample: problem.inter_sample(),
             stands_for: problem.base.filter(|base| base.strain.is_none()).map(|base| base.stands_for.clone()),
             rig: problem.rig.clone(),
         })
@@ -63,7 +64,7 @@ impl Assembled {
             response: baseline.clone(),
             effects: vec![],
             clock: 0.0,
-            held: vec![],
+            inter_sample: InterSample::Straight,
             stands_for,
             rig: problem.rig.clone(),
         }
@@ -73,7 +74,7 @@ impl Assembled {
     pub fn model(&self) -> AugmentedModel {
         let (response, effects) = (self.response.clone(), self.effects.clone());
         let model = AugmentedModel::assembled(self.rig.clone(), response, self.stands_for.clone(), effects);
-        let model = model.with_held(&self.held);
+        let model = model.with_inter_sample(&self.inter_sample);
         if self.clock == 0.0 { model } else { model.with_clock_correction(self.clock) }
     }
 }

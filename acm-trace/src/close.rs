@@ -1,5 +1,6 @@
 //! Closing the loop: from a case to a finding, with the model that has what was found.
 
+use acm_core::InterSample;
 use acm_core::augmented::AugmentedModel;
 use acm_core::calibration::CalibrationError;
 use acm_core::effects::Effect;
@@ -114,6 +115,7 @@ pub fn close(
     };
     let baselines = traced.baselines.each_ref();
     let judged = holdout.judge(baselines, &model, &modes(&traced.last), traced.common.as_ref(), &measure);
+    let [zero_order_hold, quartic_interpolation] = between_samples(&model);
     let finding = Finding {
         format: 2,
         sentence: String::new(),
@@ -122,7 +124,8 @@ pub fn close(
         equivalent: effects.first().map_or(vec![], |effect| effect.equivalent.clone()),
         figures: figures(&prepared, holdout, &traced, &effects, &judged, &measure),
         clock_correction,
-        zero_order_hold: model.held().iter().map(|&a| model.rig().actuators[a].name.clone()).collect(),
+        zero_order_hold,
+        quartic_interpolation,
         before: ways(&traced),
         trial_offset: traced.offsets.map(|offsets| offsets.size),
         removed: judged.removed,
@@ -174,6 +177,13 @@ fn verdict(traced: &Traced, effects: &[FoundEffect], left: &Left) -> Verdict {
         events: &left.events,
     };
     evidence.verdict()
+}
+
+/// Returns the names of the actuators that a model holds between samples, and of those that it takes along a quartic.
+fn between_samples(model: &AugmentedModel) -> [Vec<String>; 2] {
+    let inter_sample = model.inter_sample();
+    let names = inter_sample.actuators().iter().map(|&a| model.rig().actuators[a].name.clone()).collect();
+    if matches!(inter_sample, InterSample::Quartic(_)) { [vec![], names] } else { [names, vec![]] }
 }
 
 /// Returns the remaining error on development trials, and the results of the probes.

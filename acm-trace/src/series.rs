@@ -4,9 +4,10 @@
 //! often as the budget allows, and where outputs may be filtered not more seldom than ten times a second.
 
 pub mod before;
+pub mod curved;
 pub mod stepwise;
 
-use acm_core::held;
+use acm_core::InterSample;
 use acm_core::record::Record;
 use nalgebra::DMatrix;
 
@@ -18,10 +19,10 @@ use before::Before;
 pub struct Series {
     /// Name of the trial.
     pub name: String,
-    /// Record of all samples, those that lead up to the trial first, and those ahead of jumps of held actuators.
+    /// Record of all samples, those that lead up to the trial first, and those that go in between.
     pub record: Record,
-    /// Actuators that the record holds between samples.
-    pub held: Vec<usize>,
+    /// What actuators do between samples.
+    pub inter_sample: InterSample,
     /// The N samples that are looked at, as rows of the record.
     pub rows: Vec<usize>,
     /// The record at these samples.
@@ -79,16 +80,16 @@ impl Series {
             calibrates: false,
             rows: rows.iter().map(|&t| lead + t).collect(),
             record: record.into_owned(),
-            held: vec![],
+            inter_sample: InterSample::Straight,
         }
     }
 
-    /// Returns the series with these actuators held between samples; it must hold none.
+    /// Returns the series with its actuators so between samples; they must go straight.
     #[must_use]
-    pub fn holding(&self, actuators: &[usize]) -> Self {
-        let (record, rows) = held(&self.record, actuators);
+    pub fn between(&self, inter_sample: &InterSample) -> Self {
+        let (record, rows) = inter_sample.of(&self.record);
         let rows = self.rows.iter().map(|&t| rows[t]).collect();
-        Self { record, rows, held: actuators.to_vec(), ..self.clone() }
+        Self { record, rows, inter_sample: inter_sample.clone(), ..self.clone() }
     }
 
     /// Returns the series with what its actuators did before it; no samples may lead up to it.
@@ -109,7 +110,7 @@ impl Series {
         Self {
             name: self.name.clone(),
             record: self.record.select(&left),
-            held: self.held.clone(),
+            inter_sample: self.inter_sample.clone(),
             rows: looked_at.iter().map(|&n| self.rows[n] / every).collect(),
             thin: self.thin.select(&looked_at),
             measured: numbers(&self.measured),

@@ -1,5 +1,6 @@
 //! From a prepared case to the effects that it lacks, and the models that are compared.
 
+use acm_core::InterSample;
 use acm_core::augmented::AugmentedModel;
 use acm_core::response::Response;
 
@@ -22,6 +23,7 @@ use crate::search::scan::{Losses, cross_validate};
 use crate::search::select::{self, Found, Search, Selected, Trials, sum};
 use crate::series::Series;
 use crate::series::before::Before;
+use crate::series::curved::{curved, too_fast};
 use crate::series::stepwise::stepwise;
 
 pub use crate::options::Options;
@@ -129,8 +131,8 @@ struct Concluded<'a> {
 /// How the trials of a search are taken between and before their samples.
 #[derive(Debug, Clone, Default)]
 struct Recorded {
-    /// Actuators that are held between samples.
-    held: Vec<usize>,
+    /// What actuators do between samples.
+    inter_sample: InterSample,
     /// What the actuators did before each trial, where that is known; empty where it is of none.
     histories: Vec<Option<Before>>,
     /// Number of searches that began otherwise.
@@ -143,17 +145,17 @@ const ROUNDS: usize = 3;
 impl Recorded {
     /// Returns the trials of a search, and these with fewer samples for a quick look.
     fn trials<'a>(&self, prepared: &'a Prepared, joined: &[Series], share: f64) -> [Problem<'a>; 2] {
-        let held: Vec<Series> = match self.held.is_empty() {
-            true => joined.to_vec(),
-            false => joined.iter().map(|series| series.holding(&self.held)).collect(),
+        let series: Vec<Series> = match &self.inter_sample {
+            InterSample::Straight => joined.to_vec(),
+            between => joined.iter().map(|series| series.between(between)).collect(),
         };
-        let quick = quickened(prepared, &held);
+        let quick = quickened(prepared, &series);
         let begun = |series: &[Series]| -> Vec<Series> {
             let before = |s: usize| self.histories.get(s).and_then(Option::as_ref);
             let of = |(s, series): (usize, &Series)| before(s).map_or_else(|| series.clone(), |b| series.begun(b));
             series.iter().enumerate().map(of).collect()
         };
-        let problem = problem(prepared, &begun(&held)).with_offsets(share);
+        let problem = problem(prepared, &begun(&series)).with_offsets(share);
         let quick = quick.map_or_else(|| problem.clone(), |q| baselines::problem(prepared, &begun(&q)));
         [problem, quick.with_offsets(share)]
     }
@@ -188,20 +190,27 @@ fn concluded<'a>(
             others.extend(histories.map(|histories| {
                 let behind = histories.iter().flatten().count();
                 let other = Recorded { histories, rounds: recorded.rounds + 1, ..recorded.clone() };
-                (format!("start of {behind} trials"), other, state)
+                (format!("start of {behind} trials"), other, Some(state))
             }));
         }
     }
-    let held = stepwise(&prepared.case);
-    if !held.is_empty() && recorded.held.is_empty() && !selected.last.effects.is_empty() {
-        let change = held_between(prepared, &held);
-        others.push((change, Recorded { held, rounds: ROUNDS, ..recorded.clone() }, selected.last.clone()));
+    if !selected.last.effects.is_empty() {
+        for inter_sample in may_go_otherwise(prepared, &recorded.inter_sample, &search, &selected) {
+            let change = told_between(prepared, &inter_sample);
+            // Effects that stand for what straight lines miss of a bent signal stay where a search goes on from them.
+            let is_bent = matches!(inter_sample, InterSample::Quartic(_));
+            let (rounds, state) = if is_bent { (0, None) } else { (ROUNDS, Some(selected.last.clone())) };
+            others.push((change, Recorded { inter_sample, rounds, ..recorded.clone() }, state));
+        }
     }
     for (change, other, state) in others {
         let [problem, quick] = other.trials(prepared, joined, search.problem.offset_share);
         let mut again = self::search(prepared, options, Trials { problem: &problem, quick: &quick });
-        let losses = Some(&selected.last_losses).filter(|_| state.keeps(&selected.last, problem.rig));
-        let found = again.run(&start(prepared), Some(Found { state: &state, losses }), &mut *tell);
+        let on_from = state.as_ref().map(|state| {
+            let losses = Some(&selected.last_losses).filter(|_| state.keeps(&selected.last, problem.rig));
+            Found { state, losses }
+        });
+        let found = again.run(&start(prepared), on_from, &mut *tell);
         let compared = again.compared(&change, &selected, &found);
         tell(&compared);
         if compared.accepted {
@@ -214,10 +223,37 @@ fn concluded<'a>(
     Concluded { kept, plain, problem, about, histories: recorded.histories }
 }
 
-/// Names the actuators that are held between samples.
-fn held_between(prepared: &Prepared, held: &[usize]) -> String {
-    let names: Vec<&str> = held.iter().map(|&a| prepared.case.rig.actuators[a].name.as_str()).collect();
-    format!("{} held between samples", names.join(", "))
+/// Returns what actuators may do between samples that they do not yet: a quartic for straight lines, and held for both.
+fn may_go_otherwise(prepared: &Prepared, now: &InterSample, search: &Search, selected: &Selected) -> Vec<InterSample> {
+    let case = &prepared.case;
+    let stepwise = stepwise(case);
+    let share = share_left(search.problem, sum(&selected.last_losses));
+    let bent = curved(case, share).into_iter().filter(|a| !stepwise.contains(a)).collect();
+    let mut held = [stepwise, too_fast(case)].concat();
+    held.sort_unstable();
+    held.dedup();
+    let mut all = match now {
+        InterSample::Straight => vec![InterSample::Quartic(bent), InterSample::Held(held)],
+        InterSample::Quartic(_) => vec![InterSample::Held(held)],
+        InterSample::Held(_) => vec![],
+    };
+    all.retain(|between| !between.actuators().is_empty());
+    all
+}
+
+/// Returns the root of the share of what the outputs do that a sum of squares is of.
+fn share_left(problem: &Problem, left: f64) -> f64 {
+    let moved: f64 =
+        problem.targets.iter().flat_map(|targets| targets.column_iter().map(|y| y.variance() * y.len() as f64)).sum();
+    (left / moved).sqrt()
+}
+
+/// Says what the actuators do between samples.
+fn told_between(prepared: &Prepared, inter_sample: &InterSample) -> String {
+    let names: Vec<&str> =
+        inter_sample.actuators().iter().map(|&a| prepared.case.rig.actuators[a].name.as_str()).collect();
+    let what = if matches!(inter_sample, InterSample::Quartic(_)) { "a quartic" } else { "held" };
+    format!("{} {what} between samples", names.join(", "))
 }
 
 /// What is kept of a search, and its trials about the centres of the contexts where these matter.
@@ -257,8 +293,9 @@ const QUICK: usize = 1000;
 /// Returns the trials with fewer samples, for a quick look; none where they have few.
 fn quickened(prepared: &Prepared, joined: &[Series]) -> Option<Vec<Series>> {
     let fewer = (joined.iter().map(Series::samples).sum::<usize>() / QUICK).max(1);
-    // Every jump of a held actuator counts.
-    let every = if joined.iter().all(|series| series.held.is_empty()) { prepared.every } else { 1 };
+    // What goes in between samples counts.
+    let is_straight = |series: &Series| series.inter_sample == InterSample::Straight;
+    let every = if joined.iter().all(is_straight) { prepared.every } else { 1 };
     let quick = |series: &Series| series.decimated(every, fewer);
     (every > 1 || fewer > 1).then(|| joined.iter().map(quick).collect())
 }

@@ -9,7 +9,7 @@
 use thiserror::Error;
 
 use super::AugmentedModel;
-use super::hold::Hold;
+use super::between::Between;
 use super::point::Point;
 use crate::effects::instance::Running;
 use crate::effects::memory::{Memory, Slopes, State};
@@ -40,7 +40,7 @@ pub struct OnlineModel {
     fields: Option<Fields>,
     effects: Vec<Running>,
     rates: Vec<Slopes>,
-    hold: Option<Hold>,
+    between: Option<Between>,
     /// One sample.
     record: Record,
     q: Vec<Vec<f64>>,
@@ -65,7 +65,7 @@ pub struct NeedsFuture {
 pub struct Snapshot {
     effects: Vec<Memory>,
     rates: Vec<Slopes>,
-    hold: Option<Hold>,
+    between: Option<Between>,
 }
 
 /// Loads, and the arm that they bend.
@@ -107,7 +107,7 @@ impl OnlineModel {
         let mut online = Self {
             fields: Fields::new(model, &effects),
             rates: (0..actuators + contexts).map(|_| Slopes::default()).collect(),
-            hold: Hold::new(model.held(), &record),
+            between: Between::new(model.inter_sample(), &record),
             record,
             q: one(actuators),
             y: one(outputs),
@@ -151,14 +151,14 @@ impl OnlineModel {
     /// If there is not one value for each actuator, context, and output.
     pub fn step(&mut self, sample: &Sample, out: &mut [f64]) {
         self.note(sample);
-        if let Some(mut hold) = self.hold.take() {
-            if let Some(ahead) = hold.ahead(&self.record) {
-                std::mem::swap(&mut self.record, ahead);
+        if let Some(mut between) = self.between.take() {
+            if let Some(added) = between.added(&self.record) {
+                std::mem::swap(&mut self.record, added);
                 self.pass(sample.predicted, out);
-                std::mem::swap(&mut self.record, ahead);
+                std::mem::swap(&mut self.record, added);
             }
-            hold.keep(&self.record);
-            self.hold = Some(hold);
+            between.keep(&self.record);
+            self.between = Some(between);
         }
         self.pass(sample.predicted, out);
     }
@@ -187,13 +187,13 @@ impl OnlineModel {
     pub fn restart(&mut self) {
         self.effects.iter_mut().for_each(Running::restart);
         self.rates.iter_mut().for_each(Slopes::restart);
-        self.hold.iter_mut().for_each(Hold::restart);
+        self.between.iter_mut().for_each(Between::restart);
     }
 
     /// Copy of the present state.
     pub fn snapshot(&self) -> Snapshot {
         let effects = self.effects.iter().map(|effect| effect.memory().clone()).collect();
-        Snapshot { effects, rates: self.rates.clone(), hold: self.hold.clone() }
+        Snapshot { effects, rates: self.rates.clone(), between: self.between.clone() }
     }
 
     /// Copies the state into a snapshot of this model; nothing is allocated.
@@ -201,14 +201,14 @@ impl OnlineModel {
         let effects = snapshot.effects.iter_mut().zip(&self.effects);
         effects.for_each(|(saved, effect)| saved.clone_from(effect.memory()));
         snapshot.rates.iter_mut().zip(&self.rates).for_each(|(saved, rate)| saved.clone_from(rate));
-        snapshot.hold.iter_mut().zip(&self.hold).for_each(|(saved, hold)| saved.take(hold));
+        snapshot.between.iter_mut().zip(&self.between).for_each(|(saved, between)| saved.take(between));
     }
 
     /// Restores a snapshot of this model; nothing is allocated.
     pub fn restore(&mut self, snapshot: &Snapshot) {
         self.effects.iter_mut().zip(&snapshot.effects).for_each(|(effect, saved)| effect.remember(saved));
         self.rates.iter_mut().zip(&snapshot.rates).for_each(|(rate, saved)| rate.clone_from(saved));
-        self.hold.iter_mut().zip(&snapshot.hold).for_each(|(hold, saved)| hold.take(saved));
+        self.between.iter_mut().zip(&snapshot.between).for_each(|(between, saved)| between.take(saved));
     }
 
     /// Writes the sample into the record, with rates of change as far as they are known.

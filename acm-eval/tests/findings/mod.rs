@@ -171,6 +171,7 @@ fn named_in_mm() -> Finding {
         equivalent: vec!["backlash".into(), "prandtl_ishlinskii".into()],
         clock_correction: None,
         zero_order_hold: vec![],
+        quartic_interpolation: vec![],
         before: vec![],
         trial_offset: None,
         errors: Errors {

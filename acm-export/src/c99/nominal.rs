@@ -4,13 +4,14 @@
 //! y = O( F( p(Q(q)) + m(Q(q)) + Σ_f w_f u_f(Q(q)) + (s − g(q)) ) )
 //! ```
 
+use acm_core::NominalModel;
 use acm_core::augmented::AugmentedModel;
 use acm_core::effects::Site;
 use acm_core::effects::instance::Instance;
+use acm_core::inter_sample::{AHEAD, InterSample, QUARTIC, UNEVEN};
 use acm_core::polynomial::Polynomial;
 use acm_core::rig::Rig;
 use acm_core::static_map::{Harmonic, StaticMap};
-use acm_core::{AHEAD, NominalModel};
 use acm_stream::{Nominal, Signals};
 
 use super::effects::{self, Inputs};
@@ -33,35 +34,48 @@ pub fn write(nominal: &Nominal, signals: &Signals, met: &[Vec<f64>]) -> Result<W
     let unused = ["time", "in"].into_iter().filter(|word| !effects::uses(&body, word));
     let unused: String = unused.map(|word| format!("    (void){word};\n")).collect();
     let memory = if written.memory.is_empty() { "" } else { "$name_memory *memory, " };
-    let held = match nominal {
-        Nominal::Augmented(model) if !written.memory.is_empty() => Some((model.rig(), model.held())),
+    let between = match nominal {
+        Nominal::Augmented(model) if !written.memory.is_empty() => Some((model.rig(), model.inter_sample())),
         _ => None,
     };
-    let held = held.filter(|(_, held)| !held.is_empty());
-    let name = if held.is_none() { "nominal" } else { "straight" };
+    let between = between.filter(|(_, inter_sample)| *inter_sample != InterSample::Straight);
+    let name = if between.is_none() { "nominal" } else { "straight" };
     written.source += &format!(
         "\n/* All outputs y of the nominal model at one sample; `in` are its inputs. Returns $NAME_OK, or why it cannot. */\n\
          static int {name}(double time, const double *in, {memory}double *y)\n{{\n{body}{unused}    return $NAME_OK;\n}}\n",
     );
-    if let Some((rig, held)) = held {
-        holding(&held, rig, &mut written);
+    if let Some((rig, inter_sample)) = between {
+        add_samples(&inter_sample, rig, &mut written);
     }
     Ok(written)
 }
 
-/// Adds the function that passes a sample on to `straight`, after the one ahead of a jump of held actuators.
-fn holding(held: &[usize], rig: &Rig, written: &mut Written) {
-    let interpolated = rig.actuators.len() + rig.contexts.len() + if rig.carried { 3 } else { 0 };
-    written.members += &format!("    double last[{interpolated}], last_time;\n    int begun;\n");
-    written.source += &format!(
-        "\n#define AHEAD {}\n/* Places of the actuators that are held. */\nstatic const int HELD[{}] = {{ {} }};\n\n{}",
-        double(AHEAD),
-        held.len(),
-        held.iter().map(ToString::to_string).collect::<Vec<_>>().join(", "),
-        include_str!("runtime/held.c")
-            .replace("@COUNT", &held.len().to_string())
-            .replace("@SIGNALS", &interpolated.to_string()),
-    );
+/// Adds the function that passes a sample on to `straight`, after the one that goes in before it.
+fn add_samples(inter_sample: &InterSample, rig: &Rig, written: &mut Written) {
+    let signals = rig.actuators.len() + rig.contexts.len() + if rig.carried { 3 } else { 0 };
+    let (members, constants, source) = match inter_sample {
+        InterSample::Quartic(_) => (
+            format!("    double values[{signals}][{QUARTIC}], times[{QUARTIC}];\n    int count;\n"),
+            format!(
+                "#define SAMPLES {QUARTIC}\n#define UNEVEN {}\n/* Places of the actuators that follow a quartic. */\nstatic const int CURVED",
+                double(UNEVEN)
+            ),
+            include_str!("runtime/quartic.c"),
+        ),
+        _ => (
+            format!("    double last[{signals}], last_time;\n    int begun;\n"),
+            format!(
+                "#define AHEAD {}\n/* Places of the actuators that are held. */\nstatic const int HELD",
+                double(AHEAD)
+            ),
+            include_str!("runtime/held.c"),
+        ),
+    };
+    let places = inter_sample.actuators();
+    let listed: Vec<String> = places.iter().map(ToString::to_string).collect();
+    let source = source.replace("@COUNT", &places.len().to_string()).replace("@SIGNALS", &signals.to_string());
+    written.members += &members;
+    written.source += &format!("\n{constants}[{}] = {{ {} }};\n\n{source}", places.len(), listed.join(", "));
 }
 
 /// Returns the call that leaves p(q) in y.

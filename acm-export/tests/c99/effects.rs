@@ -1,5 +1,6 @@
 //! Every effect: equal to Rust.
 
+use acm_core::InterSample;
 use acm_core::effects::{ALL, Carrier, Rig, instance::Instance};
 use acm_stream::{Nominal, StateRule};
 
@@ -95,8 +96,21 @@ fn actuators_may_be_held() {
     let effects = ["dead_time", "backlash", "actuator_lag", "second_order_lag", "creep", "measurement_lag"];
     let terms = effects.map(|name| term(name, Carrier::Rig, &rig)).to_vec();
     let straight = augmented(terms);
-    for held in [vec![0], vec![0, 1]] {
-        let model = Nominal::Augmented(straight.clone().with_held(&held));
-        assert_equal(&format!("{held:?} held"), &parts(small(), model, StateRule::Running), 3000);
+    for inter_sample in [InterSample::Held(vec![0]), InterSample::Held(vec![0, 1])] {
+        let model = Nominal::Augmented(straight.clone().with_inter_sample(&inter_sample));
+        assert_equal(&format!("{inter_sample:?}"), &parts(small(), model, StateRule::Running), 3000);
+    }
+}
+
+/// Oracle: the stream of the same model. The steps between samples differ, so that some quartics are parabolas or lines.
+#[test]
+fn actuators_may_follow_a_quartic() {
+    let rig = rig();
+    let effects = ["dead_time", "backlash", "actuator_lag", "second_order_lag", "creep", "measurement_lag"];
+    let terms = effects.map(|name| term(name, Carrier::Rig, &rig)).to_vec();
+    let straight = augmented(terms);
+    for inter_sample in [InterSample::Quartic(vec![1]), InterSample::Quartic(vec![0, 1])] {
+        let model = Nominal::Augmented(straight.clone().with_inter_sample(&inter_sample));
+        assert_equal(&format!("{inter_sample:?}"), &parts(small(), model, StateRule::Running), 3000);
     }
 }

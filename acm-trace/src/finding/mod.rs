@@ -55,6 +55,9 @@ pub struct Finding {
     /// Names of the actuators that the model holds between samples.
     #[serde(default)]
     pub zero_order_hold: Vec<String>,
+    /// Names of the actuators that the model takes along a quartic between samples.
+    #[serde(default)]
+    pub quartic_interpolation: Vec<String>,
     /// What the actuators did before those development trials whose start tells it.
     #[serde(default)]
     pub before: Vec<BeforeTrial>,

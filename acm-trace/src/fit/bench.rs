@@ -44,7 +44,7 @@ pub fn noise(width: f64) -> impl FnMut() -> f64 {
 pub fn series(record: Record, measured: Vec<f64>) -> Series {
     let samples = record.samples();
     Series {
-        held: vec![],
+        inter_sample: acm_core::InterSample::Straight,
         name: String::new(),
         rows: (0..samples).collect(),
         thin: record.clone(),

@@ -1,5 +1,6 @@
 //! The regression problem: trials with the samples that are compared, and units of their inputs.
 
+use acm_core::InterSample;
 use acm_core::augmented::AugmentedModel;
 use acm_core::polynomial::Polynomial;
 use acm_core::response::Response;
@@ -98,9 +99,9 @@ impl<'a> Problem<'a> {
         })
     }
 
-    /// Returns the actuators that are held between samples.
-    pub fn held(&self) -> &[usize] {
-        self.series.first().map_or(&[], |series| &series.held)
+    /// Returns what the actuators do between samples.
+    pub fn inter_sample(&self) -> InterSample {
+        self.series.first().map_or_else(InterSample::default, |series| series.inter_sample.clone())
     }
 
     /// Returns the number of outputs M.

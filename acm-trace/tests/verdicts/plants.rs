@@ -62,6 +62,44 @@ fn a_command_is_held_between_samples_where_that_predicts_better() {
     }
 }
 
+/// A voltage of four sines, the fastest of six samples in a period, from rest, and a lag of 0.25 s behind it. Oracle: the closed form
+/// behind each, z = A (sin(ωt + φ − α) + …) with its transient.
+#[test]
+fn what_bends_between_samples_follows_a_quartic() {
+    let tau: f64 = 0.25;
+    let finding = traced(|name, k| {
+        let mut draw = random(7100 + k as u64);
+        let sines: Vec<[f64; 3]> = [0.31, 0.62, 0.83, 1.02]
+            .map(|f| {
+                [
+                    2.0 * std::f64::consts::PI * f / (6.0 * STEP),
+                    draw.random_range(0.2..0.5),
+                    draw.random_range(0.0..6.2),
+                ]
+            })
+            .to_vec();
+        let sum = |of: &dyn Fn(&[f64; 3]) -> f64| sines.iter().map(of).sum::<f64>();
+        let drives = |t: f64| sum(&|[w, size, phase]| size * (w * t + phase).sin());
+        let follows = |t: f64| {
+            sum(&|[w, size, phase]| {
+                let (behind, less) = ((w * tau).atan(), size / (w * tau).hypot(1.0));
+                less * ((w * t + phase - behind).sin() - (phase - behind).sin() * (-t / tau).exp())
+                    + size * phase.sin() * (-t / tau).exp()
+            })
+        };
+        let time: Vec<f64> = (0..400).map(|t| STEP * f64::from(t)).collect();
+        let measured = DMatrix::from_fn(400, 1, |t, _| 4.0 * follows(time[t]) + NOISE * normal(&mut draw));
+        let q = time.iter().map(|t| drives(*t)).collect();
+        let record = Record::new(time, vec![q], vec![], vec![]);
+        Trial { name: format!("{name}{k}"), record, lead: None, measured, predicted: None, offset: None }
+    });
+    assert_eq!(finding.quartic_interpolation, ["q1"], "{}", told(&finding));
+    assert_eq!(names(&finding), ["actuator_lag"], "{}", told(&finding));
+    let lag = parameter(effect(&finding, "actuator_lag"), "tau");
+    assert!((lag.value / tau - 1.0).abs() < 0.01, "{lag:?}");
+    assert!((finding.errors.after.value / NOISE - 1.0).abs() < 0.3, "{}", told(&finding));
+}
+
 /// A valve rests at 5.3 V, and opens 0.6 V beyond; its spool follows after 0.3 s.
 #[test]
 fn a_valve_has_a_dead_zone_about_its_rest() {

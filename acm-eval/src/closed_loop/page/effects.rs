@@ -23,6 +23,12 @@ pub fn section(finding: &Finding) -> Markup {
                 straight line from one to the next."
             }
         }
+        @if !finding.quartic_interpolation.is_empty() {
+            p {
+                b { "Between samples: " } (finding.quartic_interpolation.join(", ")) " along a quartic through the last five samples. That predicts better \
+                than a straight line from one to the next."
+            }
+        }
         @if finding.effects.is_empty() {
             p { "No effect was added to the model." }
         } @else {

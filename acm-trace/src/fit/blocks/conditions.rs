@@ -64,7 +64,7 @@ mod tests {
 
     #[test]
     fn means_that_are_drawn_at_random_pass_as_levels_as_often_as_is_said() {
-        use rand::{Rng, SeedableRng};
+        use rand::{RngExt, SeedableRng};
         let mut random = rand_chacha::ChaCha8Rng::seed_from_u64(7);
         let mut share = |trials: usize| {
             let drawn = (0..20_000).filter(|_| {

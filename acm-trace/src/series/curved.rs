@@ -1,0 +1,88 @@
+//! Actuators that bend between samples by more than what is left of the outputs.
+//!
+//! Halfway between two samples a quartic through the last five lies off the straight line by e(t). An input that is wrong by a share
+//! `rms(e) / std(q)` of what it does moves the outputs by about as much of what they do. Where that is little beside the share of the
+//! outputs that is left, it cannot be told, and need not be. A signal of which straight lines miss a tenth moves too fast for its samples:
+//! it may be held as well, as a random command is that changes at every sample.
+
+use acm_core::InterSample;
+
+use crate::case::Case;
+
+/// Smallest ratio of the two shares.
+const COUNTS: f64 = 0.5;
+
+/// Share that straight lines miss of a signal that moves too fast for its samples: that of a sine with seven samples in a period.
+const TOO_FAST: f64 = 0.1;
+
+/// Returns the actuators that may follow a quartic between samples, where a share `left` of what the outputs do is left; none where
+/// predictions come with the data, which are recorded at samples.
+pub fn curved(case: &Case, left: f64) -> Vec<usize> {
+    if case.is_predicted() {
+        return vec![];
+    }
+    let is_missed = |&a: &usize| missed(case, a) > COUNTS * left;
+    (0..case.rig.actuators.len()).filter(is_missed).collect()
+}
+
+/// Returns the actuators that move too fast for their samples, and may be held; none where predictions come with the data.
+pub fn too_fast(case: &Case) -> Vec<usize> {
+    let actuators = 0..if case.is_predicted() { 0 } else { case.rig.actuators.len() };
+    actuators.filter(|&a| missed(case, a) > TOO_FAST).collect()
+}
+
+/// Returns the share of what an actuator does that straight lines between its samples miss.
+fn missed(case: &Case, a: usize) -> f64 {
+    let (mut off, mut moved) = (0.0, 0.0);
+    for trial in case.development.iter().chain(&case.calibration) {
+        let (record, recorded) = (&trial.record, &trial.record.actuators[a]);
+        let (quartic, _) = InterSample::Quartic(vec![a]).of(record);
+        let mean = recorded.iter().sum::<f64>() / recorded.len().max(1) as f64;
+        moved += recorded.iter().map(|q| (q - mean).powi(2)).sum::<f64>();
+        let halfway = quartic.actuators[a].iter().skip(1).step_by(2);
+        off += recorded.windows(2).zip(halfway).map(|(pair, q)| (q - 0.5 * (pair[0] + pair[1])).powi(2)).sum::<f64>();
+    }
+    if moved > 0.0 { (off / moved).sqrt() } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use acm_core::nominal::NominalSpec;
+    use acm_core::record::Record;
+    use nalgebra::DMatrix;
+
+    use super::*;
+    use crate::case::Trial;
+    use crate::fit::bench;
+
+    /// Oracle: by hand. Of a sine of n samples in a period a straight line misses 1 − cos(π/n) halfway: 0.0045
+    /// of 33 samples, 0.075 of 8, and 0.18 of 5; a ramp has no curve.
+    #[test]
+    fn of_a_sine_the_straight_line_misses_what_its_samples_tell() {
+        let rig = bench::rig(&["slow", "fast", "ramp", "faster"], &[], &["y"]);
+        let time: Vec<f64> = (0..600).map(|k| 0.05 * f64::from(k)).collect();
+        let sine =
+            |n: f64| (0..600).map(|k| (2.0 * std::f64::consts::PI * f64::from(k) / n).sin()).collect::<Vec<f64>>();
+        let record = Record::new(time.clone(), vec![sine(33.3), sine(8.1), time, sine(5.1)], vec![], vec![]);
+        let trial = Trial {
+            name: String::new(),
+            record,
+            lead: None,
+            measured: DMatrix::zeros(600, 1),
+            predicted: None,
+            offset: None,
+        };
+        let nominal = NominalSpec::Polynomial { degree: 1 };
+        let (at, reported) = (vec![], 0..1);
+        let case = Case { rig, nominal, at, reported, calibration: vec![], development: vec![trial] };
+        for (a, n) in [(0, 33.3f64), (1, 8.1)] {
+            let expected = 1.0 - (std::f64::consts::PI / n).cos();
+            assert!((missed(&case, a) / expected - 1.0).abs() < 0.1, "{} for {expected}", missed(&case, a));
+        }
+        assert!(missed(&case, 2) < 1e-12);
+        assert_eq!(curved(&case, 0.1), [1, 3]);
+        assert_eq!(curved(&case, 0.008), [0, 1, 3]);
+        assert_eq!(curved(&case, 0.6), Vec::<usize>::new());
+        assert_eq!(too_fast(&case), [3]);
+    }
+}
