@@ -160,7 +160,7 @@ impl AugmentedModel {
         }
     }
 
-    /// Takes actuators so between samples.
+    /// Sets what the actuators do between samples.
     #[must_use]
     pub fn with_inter_sample(mut self, inter_sample: &InterSample) -> Self {
         let names: Vec<String> =

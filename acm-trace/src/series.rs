@@ -84,7 +84,7 @@ impl Series {
         }
     }
 
-    /// Returns the series with its actuators so between samples; they must go straight.
+    /// Returns the series with the samples that go in between its own; its actuators must go straight.
     #[must_use]
     pub fn between(&self, inter_sample: &InterSample) -> Self {
         let (record, rows) = inter_sample.of(&self.record);
