@@ -205,6 +205,9 @@ fn concluded<'a>(
     }
     for (change, other, state) in others {
         let [problem, quick] = other.trials(prepared, joined, search.problem.offset_share);
+        if state.is_none() && !is_moved(&problem, &selected, &options.criteria) {
+            continue;
+        }
         let mut again = self::search(prepared, options, Trials { problem: &problem, quick: &quick });
         let on_from = state.as_ref().map(|state| {
             let losses = Some(&selected.last_losses).filter(|_| state.keeps(&selected.last, problem.rig));
@@ -239,6 +242,14 @@ fn may_go_otherwise(prepared: &Prepared, now: &InterSample, search: &Search, sel
     };
     all.retain(|between| !between.actuators().is_empty());
     all
+}
+
+/// Returns whether what was found predicts other trials worse or better by the price of an effect: whether it matters what actuators do
+/// between samples.
+fn is_moved(problem: &Problem, selected: &Selected, criteria: &Criteria) -> bool {
+    let now = cross_validate(problem, &selected.last).map_or(f64::NAN, |losses| sum(&losses));
+    let change = (now / sum(&selected.last_losses)).ln().abs();
+    change.is_nan() || change > criteria.price
 }
 
 /// Returns the root of the share of what the outputs do that a sum of squares is of.

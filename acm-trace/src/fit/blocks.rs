@@ -1,10 +1,7 @@
 //! Blocks of rows: units of the resampling, and the folds that are left out together.
 //!
-//! Three trials or more are left out whole, in at most eight folds: those of one condition together, where there are
-//! [`conditions`]. One or two records are cut into 20 to 24 regions of time, left out in five interleaved folds. Chu & Marron
-//! (1991), Annals of Statistics 19(4).
-
-mod conditions;
+//! Three trials or more are left out whole, in at most eight folds. One or two records are cut into 20 to 24 regions of time,
+//! left out in five interleaved folds. Chu & Marron (1991), Annals of Statistics 19(4).
 
 use std::ops::Range;
 
@@ -36,19 +33,18 @@ pub struct Blocks {
 }
 
 impl Blocks {
-    /// Cuts trials with the given numbers of rows into blocks. `means` are of each context signal over each trial.
-    pub fn new(rows: &[usize], means: &[Vec<f64>]) -> Self {
+    /// Cuts trials with the given numbers of rows into blocks.
+    pub fn new(rows: &[usize]) -> Self {
         let trials = rows.len();
         let by_trial = trials >= TRIALS;
         let each = if by_trial { BLOCKS } else { REGIONS }.div_ceil(trials.max(1)).max(1);
-        let together = conditions::conditions(means).unwrap_or_else(|| (0..trials).collect());
         let (mut blocks, mut trial, mut fold, mut first) = (vec![], vec![], vec![], 0);
         for (s, &count) in rows.iter().enumerate() {
             let parts = each.min(count.max(1));
             for k in 0..parts {
                 blocks.push(first + k * count / parts..first + (k + 1) * count / parts);
                 trial.push(s);
-                fold.push(if by_trial { together[s] % FOLDS.0 } else { (fold.len()) % FOLDS.1 });
+                fold.push(if by_trial { s % FOLDS.0 } else { (fold.len()) % FOLDS.1 });
             }
             first += count;
         }
@@ -96,21 +92,13 @@ mod tests {
 
     #[test]
     fn trials_are_left_out_whole_and_records_in_regions() {
-        let trials = Blocks::new(&[100, 90, 110, 100], &[]);
+        let trials = Blocks::new(&[100, 90, 110, 100]);
         assert_eq!((trials.len(), trials.folds, trials.by_trial), (12, 4, true));
         assert_eq!(trials.fold, [0, 0, 0, 1, 1, 1, 2, 2, 2, 3, 3, 3]);
         assert_eq!(trials.trial, trials.fold);
         assert_eq!(trials.rows[3], 100..130);
-        let record = Blocks::new(&[480], &[]);
+        let record = Blocks::new(&[480]);
         assert_eq!((record.len(), record.folds, record.rows[1].clone()), (24, 5, 20..40));
         assert_eq!(record.stacked(3).rows[1], 60..120);
-    }
-
-    #[test]
-    fn trials_of_a_condition_are_left_out_together() {
-        let trials = Blocks::new(&[50; 6], &[vec![1.0, 2.0, 3.0, 1.0, 2.0, 3.0]]);
-        assert_eq!((trials.len(), trials.folds, trials.by_trial), (12, 3, true));
-        assert_eq!(trials.fold, [0, 0, 1, 1, 2, 2, 0, 0, 1, 1, 2, 2]);
-        assert_eq!(trials.rows_of(1), [50..75, 75..100, 200..225, 225..250]);
     }
 }

@@ -259,7 +259,7 @@ mod tests {
             0.7 * x[(k, 0)] - (m as f64 + 0.2) * x[(k, 1)] + 1.5 * z[(k, m)] + 0.1 * ((k * k + m) as f64).sin()
         });
         let design = Design { x, coupled: vec![z], y, shrunk: vec![0.0; 3], correction: 3 };
-        (design, Blocks::new(&[15, 15, 15, 15], &[]))
+        (design, Blocks::new(&[15, 15, 15, 15]))
     }
 
     /// Oracle: least squares of all outputs below one another, without the rows of a fold, by the normal equations written out.

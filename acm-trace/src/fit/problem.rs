@@ -74,7 +74,7 @@ impl<'a> Problem<'a> {
             base,
             fields,
             offset,
-            blocks: Blocks::new(&rows, &context_means(series)),
+            blocks: Blocks::new(&rows),
             range: range.collect(),
             kept,
             targets,
@@ -125,13 +125,6 @@ impl<'a> Problem<'a> {
         self.kept.iter().for_each(|kept| edges.push(edges[edges.len() - 1] + kept.len()));
         edges
     }
-}
-
-/// Returns the mean of each context signal over each trial.
-fn context_means(series: &[Series]) -> Vec<Vec<f64>> {
-    let signals = series.first().map_or(0, |series| series.record.contexts.len());
-    let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len().max(1) as f64;
-    (0..signals).map(|c| series.iter().map(|series| mean(&series.thin.contexts[c])).collect()).collect()
 }
 
 /// Returns the weighted targets of each trial, kept × M.

@@ -273,7 +273,7 @@ mod tests {
     /// Oracle: the regression of each output on a column, without each fold in turn, written out.
     #[test]
     fn gains_are_those_of_a_regression_without_the_fold() {
-        let blocks = Blocks::new(&[240], &[]);
+        let blocks = Blocks::new(&[240]);
         let column = DMatrix::from_fn(240, 1, |t, _| 1.0 + number(t));
         let drawn = DMatrix::from_fn(240, 2, |t, o| number(1000 + 3 * t + o));
         let directions = Directions { own: column.clone(), shared: vec![DMatrix::zeros(240, 1)] };
