@@ -187,6 +187,15 @@ pub struct Traits {
     /// The simpler effect that it takes the place of, with more parameters of the same names: where that one acts, it begins with
     /// its values.
     pub refines: Option<&'static str>,
+    /// Another effect of the same kind that it may take the place of.
+    pub replaces: Option<&'static str>,
+}
+
+impl Traits {
+    /// Returns whether it takes the place of this effect, with more parameters.
+    pub fn takes_place_of(&self, name: &str) -> bool {
+        [self.refines, self.replaces].contains(&Some(name))
+    }
 }
 
 /// What an effect on the actuators acts alike before and behind of.

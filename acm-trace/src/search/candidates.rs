@@ -48,7 +48,9 @@ pub fn candidates(problem: &Problem, state: &State, library: &[Instance], clock:
             Some(simple) if same < most => {
                 let is_other = |placed: &Placed| same == 0 && is_refined_alike(&placed.instance, new);
                 let other = || state.effects.iter().position(|placed| is_other(placed));
-                all.extend(find(simple).or_else(other).into_iter().flat_map(|i| in_place_of(problem, state, i, new)));
+                let replaced = || new.effect().traits().replaces.and_then(find);
+                let place = find(simple).or_else(replaced).or_else(other);
+                all.extend(place.into_iter().flat_map(|i| in_place_of(problem, state, i, new)));
             }
             _ => (),
         }

@@ -51,7 +51,13 @@ impl Effect for OutputPrandtlIshlinskii {
     }
 
     fn traits(&self) -> Traits {
-        Traits { is_rare: true, is_generic: true, refines: Some("output_hysteresis"), ..Traits::default() }
+        Traits {
+            is_rare: true,
+            is_generic: true,
+            refines: Some("output_hysteresis"),
+            replaces: Some("output_bouc_wen"),
+            ..Traits::default()
+        }
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {

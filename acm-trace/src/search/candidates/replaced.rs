@@ -17,7 +17,7 @@ const BESIDE: f64 = 0.005;
 pub fn refinements(problem: &Problem, state: &State, i: usize, library: &[Instance]) -> Vec<Candidate> {
     let simple = &state.effects[i].instance;
     let refines = |new: &&Instance| {
-        new.effect().traits().refines == Some(simple.effect().name())
+        new.effect().traits().takes_place_of(simple.effect().name())
             && new.carrier() == simple.carrier()
             && simple.context().is_none()
     };
