@@ -12,7 +12,8 @@
 //! | `z_0`     | strain at the first sample over each travel: what was done before, 1 where the signal had come from far below | 1 |
 //!
 //! Elements in parallel make loops within loops, whose shape depends on where each turned: piezo stacks, shape-memory alloys, soft actuators.
-//! One element alone is `output_hysteresis`. The outputs are linear in all stiffnesses. Kuhnen (2003), European Journal of Control 9(4);
+//! One element alone is `output_hysteresis`, which it is tried in the place of: eight stiffnesses from the start explain what a simpler
+//! hysteresis does that depends on another signal. The outputs are linear in all stiffnesses. Kuhnen (2003), European Journal of Control 9(4);
 //! Brokate & Sprekels (1996), Hysteresis and Phase Transitions, sec. 2.4.
 
 use super::carrying;
