@@ -56,7 +56,7 @@ impl Between {
         match &self.inter_sample {
             InterSample::Straight => {}
             InterSample::Held(actuators) => {
-                actuators.iter().for_each(|&a| all.actuators[a][0] = before.actuators[a][0])
+                actuators.iter().for_each(|&a| all.actuators[a][0] = before.actuators[a][0]);
             }
             InterSample::Quartic(actuators) => {
                 between(&mut all.actuator_rates, &before.actuator_rates, &now.actuator_rates, share);
