@@ -326,9 +326,7 @@ impl TryFrom<Stored> for AugmentedModel {
             }
         }
         if !held.is_empty() && !quartic.is_empty() {
-            return Err(
-                "`zero_order_hold` and `quartic_interpolation` both name actuators; name some in one of them".into()
-            );
+            return Err("`zero_order_hold` and `quartic_interpolation` both name actuators; keep one of them".into());
         }
         let down = stored.rig.arm.as_ref().map(|arm| arm.down);
         let response = Response::new(stored.nominal.clone(), stored.static_map.clone(), down);

@@ -1,5 +1,7 @@
 //! From a prepared case to the effects that it lacks, and the models that are compared.
 
+mod inter_sample;
+
 use acm_core::InterSample;
 use acm_core::augmented::AugmentedModel;
 use acm_core::response::Response;
@@ -23,8 +25,8 @@ use crate::search::scan::{Losses, cross_validate};
 use crate::search::select::{self, Found, Search, Selected, Trials, sum};
 use crate::series::Series;
 use crate::series::before::Before;
-use crate::series::curved::{curved, too_fast};
-use crate::series::stepwise::stepwise;
+
+use inter_sample::{is_moved, may_go_otherwise, told_between};
 
 pub use crate::options::Options;
 
@@ -224,47 +226,6 @@ fn concluded<'a>(
     let problem = search.problem.clone();
     let (kept, about) = named(search, selected, &problem, tell);
     Concluded { kept, plain, problem, about, histories: recorded.histories }
-}
-
-/// Returns what actuators may do between samples that they do not yet: a quartic for straight lines, and held for both.
-fn may_go_otherwise(prepared: &Prepared, now: &InterSample, search: &Search, selected: &Selected) -> Vec<InterSample> {
-    let case = &prepared.case;
-    let stepwise = stepwise(case);
-    let share = share_left(search.problem, sum(&selected.last_losses));
-    let bent = curved(case, share).into_iter().filter(|a| !stepwise.contains(a)).collect();
-    let mut held = [stepwise, too_fast(case)].concat();
-    held.sort_unstable();
-    held.dedup();
-    let mut all = match now {
-        InterSample::Straight => vec![InterSample::Quartic(bent), InterSample::Held(held)],
-        InterSample::Quartic(_) => vec![InterSample::Held(held)],
-        InterSample::Held(_) => vec![],
-    };
-    all.retain(|between| !between.actuators().is_empty());
-    all
-}
-
-/// Returns whether what was found predicts other trials worse or better by the price of an effect: whether it matters what actuators do
-/// between samples.
-fn is_moved(problem: &Problem, selected: &Selected, criteria: &Criteria) -> bool {
-    let now = cross_validate(problem, &selected.last).map_or(f64::NAN, |losses| sum(&losses));
-    let change = (now / sum(&selected.last_losses)).ln().abs();
-    change.is_nan() || change > criteria.price
-}
-
-/// Returns the root of the share of what the outputs do that a sum of squares is of.
-fn share_left(problem: &Problem, left: f64) -> f64 {
-    let moved: f64 =
-        problem.targets.iter().flat_map(|targets| targets.column_iter().map(|y| y.variance() * y.len() as f64)).sum();
-    (left / moved).sqrt()
-}
-
-/// Says what the actuators do between samples.
-fn told_between(prepared: &Prepared, inter_sample: &InterSample) -> String {
-    let names: Vec<&str> =
-        inter_sample.actuators().iter().map(|&a| prepared.case.rig.actuators[a].name.as_str()).collect();
-    let what = if matches!(inter_sample, InterSample::Quartic(_)) { "a quartic" } else { "held" };
-    format!("{} {what} between samples", names.join(", "))
 }
 
 /// What is kept of a search, and its trials about the centres of the contexts where these matter.

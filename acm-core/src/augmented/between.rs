@@ -3,7 +3,7 @@
 use crate::effects::Record;
 use crate::recorded::inter_sample::{InterSample, QUARTIC, halfway, straight};
 
-/// The last samples, and what goes in behind them.
+/// The last samples, and room for the one that is added behind them.
 #[derive(Debug, Clone)]
 pub struct Between {
     inter_sample: InterSample,

@@ -6,7 +6,7 @@
 //! quartic    q(t) through the samples k−4 to k                       a band-limited signal of which a period has few samples
 //! ```
 //!
-//! for t_{k−1} ≤ t < t_k, h_k = t_k − t_{k−1}. Effects take a record as straight between its samples, so a sample goes in before each:
+//! for t_{k−1} ≤ t < t_k, h_k = t_k − t_{k−1}. Effects interpolate a record linearly, so a sample is added before each:
 //!
 //! * held: with the values before, ahead of each jump by [`AHEAD`] of h_k;
 //! * quartic: halfway, at q(t_k − h_k/2). Samples from before a step that is more than [`UNEVEN`] times longer or shorter than the next do

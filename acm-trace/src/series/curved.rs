@@ -15,34 +15,38 @@ const COUNTS: f64 = 0.5;
 /// Share that straight lines miss of a signal that moves too fast for its samples: that of a sine with seven samples in a period.
 const TOO_FAST: f64 = 0.1;
 
-/// Returns the actuators that may follow a quartic between samples, where a share `left` of what the outputs do is left; none where
-/// predictions come with the data, which are recorded at samples.
-pub fn curved(case: &Case, left: f64) -> Vec<usize> {
-    if case.is_predicted() {
-        return vec![];
-    }
-    let is_missed = |&a: &usize| missed(case, a) > COUNTS * left;
-    (0..case.rig.actuators.len()).filter(is_missed).collect()
+/// Returns the actuators that may follow a quartic between samples: of which straight lines miss these shares, where a share `left` of what
+/// the outputs do is left.
+pub fn curved(missed: &[f64], left: f64) -> Vec<usize> {
+    above(missed, COUNTS * left)
 }
 
-/// Returns the actuators that move too fast for their samples, and may be held; none where predictions come with the data.
-pub fn too_fast(case: &Case) -> Vec<usize> {
-    let actuators = 0..if case.is_predicted() { 0 } else { case.rig.actuators.len() };
-    actuators.filter(|&a| missed(case, a) > TOO_FAST).collect()
+/// Returns the actuators that move too fast for their samples, and may be held.
+pub fn too_fast(missed: &[f64]) -> Vec<usize> {
+    above(missed, TOO_FAST)
 }
 
-/// Returns the share of what an actuator does that straight lines between its samples miss.
-fn missed(case: &Case, a: usize) -> f64 {
-    let (mut off, mut moved) = (0.0, 0.0);
+fn above(missed: &[f64], share: f64) -> Vec<usize> {
+    (0..missed.len()).filter(|&a| missed[a] > share).collect()
+}
+
+/// Returns the share of what each actuator does that straight lines between its samples miss; none where predictions come with the data,
+/// which are recorded at samples.
+pub fn missed(case: &Case) -> Vec<f64> {
+    let actuators = if case.is_predicted() { 0 } else { case.rig.actuators.len() };
+    let mut sums = vec![(0.0, 0.0); actuators];
     for trial in case.development.iter().chain(&case.calibration) {
-        let (record, recorded) = (&trial.record, &trial.record.actuators[a]);
-        let (quartic, _) = InterSample::Quartic(vec![a]).of(record);
-        let mean = recorded.iter().sum::<f64>() / recorded.len().max(1) as f64;
-        moved += recorded.iter().map(|q| (q - mean).powi(2)).sum::<f64>();
-        let halfway = quartic.actuators[a].iter().skip(1).step_by(2);
-        off += recorded.windows(2).zip(halfway).map(|(pair, q)| (q - 0.5 * (pair[0] + pair[1])).powi(2)).sum::<f64>();
+        let (quartic, _) = InterSample::Quartic((0..actuators).collect()).of(&trial.record);
+        for (a, (off, moved)) in sums.iter_mut().enumerate() {
+            let recorded = &trial.record.actuators[a];
+            let mean = recorded.iter().sum::<f64>() / recorded.len().max(1) as f64;
+            *moved += recorded.iter().map(|q| (q - mean).powi(2)).sum::<f64>();
+            let halfway = quartic.actuators[a].iter().skip(1).step_by(2);
+            let straight = recorded.windows(2).map(|pair| 0.5 * (pair[0] + pair[1]));
+            *off += straight.zip(halfway).map(|(straight, q)| (q - straight).powi(2)).sum::<f64>();
+        }
     }
-    if moved > 0.0 { (off / moved).sqrt() } else { 0.0 }
+    sums.into_iter().map(|(off, moved): (f64, f64)| if moved > 0.0 { (off / moved).sqrt() } else { 0.0 }).collect()
 }
 
 #[cfg(test)]
@@ -75,14 +79,15 @@ mod tests {
         let nominal = NominalSpec::Polynomial { degree: 1 };
         let (at, reported) = (vec![], 0..1);
         let case = Case { rig, nominal, at, reported, calibration: vec![], development: vec![trial] };
+        let missed = missed(&case);
         for (a, n) in [(0, 33.3f64), (1, 8.1)] {
             let expected = 1.0 - (std::f64::consts::PI / n).cos();
-            assert!((missed(&case, a) / expected - 1.0).abs() < 0.1, "{} for {expected}", missed(&case, a));
+            assert!((missed[a] / expected - 1.0).abs() < 0.1, "{} for {expected}", missed[a]);
         }
-        assert!(missed(&case, 2) < 1e-12);
-        assert_eq!(curved(&case, 0.1), [1, 3]);
-        assert_eq!(curved(&case, 0.008), [0, 1, 3]);
-        assert_eq!(curved(&case, 0.6), Vec::<usize>::new());
-        assert_eq!(too_fast(&case), [3]);
+        assert!(missed[2] < 1e-12);
+        assert_eq!(curved(&missed, 0.1), [1, 3]);
+        assert_eq!(curved(&missed, 0.008), [0, 1, 3]);
+        assert_eq!(curved(&missed, 0.6), Vec::<usize>::new());
+        assert_eq!(too_fast(&missed), [3]);
     }
 }

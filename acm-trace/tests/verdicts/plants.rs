@@ -1,5 +1,7 @@
 //! Plants whose inputs are commands: held between samples, bent, or with a dead zone about a rest that is not zero.
 
+use std::ops::Range;
+
 use acm_core::nominal::NominalSpec;
 use acm_core::record::Record;
 use acm_trace::case::Trial;
@@ -19,17 +21,17 @@ fn straight() -> Bench {
 
 /// Traces six trials, with two more held out.
 fn traced(trial: impl Fn(&str, usize) -> Trial) -> Finding {
-    let of = |part: &str, trials: std::ops::Range<usize>| trials.map(|k| trial(part, k)).collect();
+    let of = |part: &str, trials: Range<usize>| trials.map(|k| trial(part, k)).collect();
     found(straight().case(vec![], of("d", 0..6), of("u", 6..8)))
 }
 
-/// A command in steps, each of some samples, and a lag of 0.25 s behind it: held from sample to sample, or straight.
-fn commanded(is_held: bool) -> Finding {
+/// A command in steps, each of a number of samples out of a range, and a lag of 0.25 s behind it: held from sample to sample, or straight.
+fn commanded(is_held: bool, rests: &Range<usize>) -> Finding {
     traced(|name, k| {
         let mut draw = random(7000 + k as u64);
         let (mut q, mut left) = (vec![], 0);
         for t in 0..300 {
-            left = if left == 0 { draw.random_range(3..14) } else { left - 1 };
+            left = if left == 0 { draw.random_range(rests.clone()) } else { left - 1 };
             q.push(if left == 0 || t == 0 { draw.random_range(-1.0..1.0) } else { q[t - 1] });
         }
         let (mut z, mut y) = (q[0], vec![q[0]]);
@@ -52,8 +54,10 @@ fn commanded(is_held: bool) -> Finding {
 
 #[test]
 fn a_command_is_held_between_samples_where_that_predicts_better() {
-    for (is_held, held) in [(true, vec!["q1"]), (false, vec![])] {
-        let finding = commanded(is_held);
+    // The second changes at every sample or every other.
+    for (is_held, rests) in [(true, 3..14), (false, 3..14), (true, 0..2), (false, 0..2)] {
+        let finding = commanded(is_held, &rests);
+        let held: &[&str] = if is_held { &["q1"] } else { &[] };
         assert_eq!(finding.zero_order_hold, held, "{}", told(&finding));
         assert_eq!(names(&finding), ["actuator_lag"], "{}", told(&finding));
         let tau = parameter(effect(&finding, "actuator_lag"), "tau");
