@@ -1,6 +1,7 @@
 //! Fitting: least squares, and the calibration of nominal models.
 
 pub mod calibration;
+pub mod completion;
 pub mod least_squares;
 pub mod levenberg_marquardt;
 pub mod linear;

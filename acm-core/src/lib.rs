@@ -65,6 +65,7 @@ pub mod tip_model;
 
 pub use arm::{ArmError, ArmSpec};
 pub use fitting::calibration::{Calibration, CalibrationOptions, Parameter, Stage, calibrate, calibrate_with};
+pub use fitting::completion::completed;
 pub use fitting::levenberg_marquardt::StopReason;
 pub use fitting::observations::{CalibrationError, Observations};
 pub use fitting::{calibration, least_squares, levenberg_marquardt, observations, order_study};

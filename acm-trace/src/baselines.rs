@@ -2,14 +2,15 @@
 //!
 //! | baseline | base | correction fitted to |
 //! | --- | --- | --- |
-//! | nominal | as given | none; a polynomial nominal model: the calibration trials, or all where there are none |
-//! | static map | as given | the calibration trials |
-//! | recalibrated | as given | calibration and development trials |
+//! | nominal | as calibrated | none; a polynomial nominal model: the calibration trials, or all where there are none |
+//! | static map | as in use | the calibration trials |
+//! | recalibrated | as in use | calibration and development trials |
 //!
+//! In use is the nominal model, completed from the development trials where it can be ([`crate::nominal_fit::Nominal::in_use`]).
 //! Degree and ridge are chosen by blocks left out, as those of the result are. Where no effect is found, the result is the simplest of
 //! the three that the next does not improve on: a paired t over the blocks of the development trials, which are left
-//! out of the third, and which the first two have not seen where there are calibration trials. Effects are accepted against the
-//! third; where one of the others is the result without them, they have to improve on that, too.
+//! out of the third. Where there are calibration trials, the first has not seen them, and the second only by the completion of its base.
+//! Effects are accepted against the third; where one of the others is the result without them, they have to improve on that, too.
 
 use acm_core::augmented::AugmentedModel;
 use acm_core::response::Response;
@@ -39,7 +40,10 @@ pub(crate) fn baselines<'a>(prepared: &'a Prepared, joined: &'a [Series], criter
     let recalibrated = fitted(joined);
     let own = if prepared.calibration.is_empty() { None } else { Some(fitted(&prepared.calibration)) };
     match prepared.base() {
-        Some(_) => [prepared.response.clone(), own.unwrap_or_else(|| prepared.response.clone()), recalibrated],
+        Some(_) => {
+            let nominal = Response::new(prepared.nominal.model.clone(), None, prepared.down());
+            [nominal.clone(), own.unwrap_or(nominal), recalibrated]
+        }
         None => {
             let nominal = own.unwrap_or_else(|| recalibrated.clone());
             [nominal.clone(), nominal, recalibrated]

@@ -72,9 +72,9 @@ pub fn close(
     let joined = joined_series(&prepared);
     let traced = trace::trace(&prepared, &joined, options, progress);
     let model = traced.after.model();
-    let Found { effects, minor, clock_correction } = found(&prepared, &traced, &options.criteria);
     let before = left_out(&traced.problem, &traced.bare);
     let after = left_out(&traced.problem, &traced.last);
+    let Found { effects, minor, clock_correction } = found(&prepared, &traced, after.as_ref(), options);
     let mut left = left(&prepared, &traced, before.as_ref(), after.as_ref(), options.seed);
     left.not_tried.extend(own_not_tried(&prepared, options));
     let verdict = verdict(&traced, &effects, &left);

@@ -1,6 +1,7 @@
 //! Calibration of the nominal model before any effect, and the polynomial that approximates it where inputs are moved.
 
 use acm_core::calibration::{CalibrationError, calibrate};
+use acm_core::completed;
 use acm_core::nominal::{NominalModel, NominalSpec};
 use acm_core::observations::Observations;
 use acm_core::polynomial::Polynomial;
@@ -17,20 +18,39 @@ const STANDING_DEGREE: usize = 3;
 /// Largest number of the polynomial's coefficients for each output.
 const STANDING_TERMS: usize = 40;
 
-/// Calibrates the nominal model on `trials`. Where predictions come with the data, it fits a polynomial to them, and
-/// stores the difference in every trial of the case.
+/// Calibrates the nominal model on the calibration trials; `is_open` where they leave a part of it open. Where predictions come with the
+/// data, it fits a polynomial to them, and stores the difference in every trial of the case.
 ///
 /// # Errors
 /// A calibration that is impossible.
-pub fn calibrate_nominal(case: &mut Case) -> Result<Nominal, CalibrationError> {
+pub fn calibrate_nominal(case: &mut Case, is_open: bool) -> Result<Nominal, CalibrationError> {
     if case.is_predicted() {
         return stand_in(case);
     }
     let trials = if case.calibration.is_empty() { &case.development } else { &case.calibration };
     let observations = thinned(observations(trials, &case.at, |trial| &trial.measured));
     let model = calibrate(&case.nominal, &observations)?.model;
-    let stand_in = matches!(model, NominalModel::Strain(_)).then(|| stand_in_for(&model, case));
-    Ok(Nominal { model, stands_for: None, stand_in })
+    let completed = completion(&model, &observations, case, is_open);
+    let in_use = completed.as_ref().unwrap_or(&model);
+    let stand_in = matches!(model, NominalModel::Strain(_)).then(|| stand_in_for(in_use, case));
+    Ok(Nominal { model, completed, stands_for: None, stand_in })
+}
+
+/// Returns a strain model completed from the development trials; none where they calibrate. Where the calibration trials leave it open,
+/// the fit begins from a calibration to all trials as well.
+fn completion(model: &NominalModel, calibration: &Observations, case: &Case, is_open: bool) -> Option<NominalModel> {
+    let NominalModel::Strain(strain) = model else { return None };
+    if case.calibration.is_empty() {
+        return None;
+    }
+    let of = |trials: &[Trial]| thinned(observations(trials, &case.at, |trial| &trial.measured));
+    let alike = || calibrate(&case.nominal, &of(&[case.calibration.clone(), case.development.clone()].concat())).ok();
+    let alike = if is_open { alike().map(|all| all.model) } else { None };
+    let alike = match &alike {
+        Some(NominalModel::Strain(alike)) => Some(alike),
+        _ => None,
+    };
+    Some(NominalModel::Strain(completed(strain, calibration, &of(&case.development), alike)))
 }
 
 /// Highest degree of the polynomial that approximates a strain model, and largest number of its coefficients.
@@ -78,12 +98,21 @@ fn radical_inverse(mut k: usize, base: usize) -> f64 {
 /// A calibrated nominal model.
 #[derive(Debug, Clone)]
 pub struct Nominal {
-    /// Model that is ready to predict.
+    /// Model as calibrated.
     pub model: NominalModel,
+    /// A strain model completed from the development trials ([`completed`]).
+    pub completed: Option<NominalModel>,
     /// The polynomial g where the prediction comes with the data.
     pub stands_for: Option<Polynomial>,
     /// Polynomial that approximates a strain model.
     pub stand_in: Option<Polynomial>,
+}
+
+impl Nominal {
+    /// Returns the model that effects are sought beside: completed where it can be.
+    pub fn in_use(&self) -> &NominalModel {
+        self.completed.as_ref().unwrap_or(&self.model)
+    }
 }
 
 fn stand_in(case: &mut Case) -> Result<Nominal, CalibrationError> {
@@ -95,14 +124,14 @@ fn stand_in(case: &mut Case) -> Result<Nominal, CalibrationError> {
     let spec = NominalSpec::Polynomial { degree };
     let model = calibrate(&spec, &thinned(all))?.model;
     let NominalModel::Polynomial(g) = model.clone() else {
-        return Ok(Nominal { model, stands_for: None, stand_in: None });
+        return Ok(Nominal { model, completed: None, stands_for: None, stand_in: None });
     };
     let trials = case.calibration.iter_mut().chain(&mut case.development);
     for trial in trials {
         let q = actuators_of(trial);
         trial.offset = trial.predicted.as_ref().map(|own| own - g.predict(&q));
     }
-    Ok(Nominal { model, stands_for: Some(g), stand_in: None })
+    Ok(Nominal { model, completed: None, stands_for: Some(g), stand_in: None })
 }
 
 /// Returns the actuators, N × A.

@@ -8,7 +8,7 @@ use acm_core::response::Response;
 use nalgebra::Vector3;
 
 use crate::case::{Case, Trial};
-use crate::covered::Covered;
+use crate::covered::left_open;
 use crate::fit::problem::Base;
 use crate::nominal_fit::{self, Nominal};
 use crate::options::Options;
@@ -44,13 +44,10 @@ pub struct Prepared {
 /// # Errors
 /// A calibration that is impossible.
 pub fn prepare(mut case: Case, options: &Options) -> Result<Prepared, CalibrationError> {
-    let nominal = nominal_fit::calibrate_nominal(&mut case)?;
-    let (covered, caution) = Covered::confine(&mut case);
+    let caution = left_open(&case);
+    let nominal = nominal_fit::calibrate_nominal(&mut case, caution.is_some())?;
     let every = decimation(&case);
     let mut development = thinned(&case.development, &case, options, every);
-    if let Some(covered) = covered {
-        covered.take_out(&mut development);
-    }
     let by_trial = number_blocks(&mut development);
     let mut calibration = thinned(&case.calibration, &case, options, every);
     number_blocks(&mut calibration);
@@ -64,7 +61,7 @@ pub fn prepare(mut case: Case, options: &Options) -> Result<Prepared, Calibratio
     let library = all.filter(allowed).filter(|i| is_covered(i, &case)).collect();
     let weight = weights(&case);
     let down = case.rig.arm.as_ref().map(|arm| arm.down);
-    let response = Response::new(nominal.model.clone(), None, down);
+    let response = Response::new(nominal.in_use().clone(), None, down);
     Ok(Prepared { case, nominal, development, calibration, every, by_trial, weight, library, response, caution })
 }
 

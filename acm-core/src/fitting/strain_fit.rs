@@ -9,7 +9,8 @@ use crate::fitting::levenberg_marquardt::Bounds;
 use crate::fitting::observations::Observations;
 use crate::tip_model::{Block, STRIDE, StrainModel};
 
-/// Residual = predicted − measured, m, with the parameters in `free` moving and all others as in `model`.
+/// Residual = w (predicted − measured), m, with the parameters in `free` moving and all others as in `model`. The weights w are 1 but for
+/// [`StrainFit::weighted`].
 ///
 /// Rows go by block, output, sample.
 pub(crate) struct StrainFit<'a> {
@@ -18,6 +19,8 @@ pub(crate) struct StrainFit<'a> {
     /// Column by column, so that samples lie side by side.
     actuators: &'a DMatrix<f64>,
     measured: &'a DMatrix<f64>,
+    /// Weight of each sample; none where all are 1.
+    weights: Option<&'a [f64]>,
 }
 
 /// Largest |a|: beyond it the constant part of the curvature is a rounding error of the rest.
@@ -28,7 +31,12 @@ const LARGEST_TURN: f64 = std::f64::consts::PI;
 
 impl<'a> StrainFit<'a> {
     pub fn new(model: &'a StrainModel, free: Vec<usize>, data: &'a Observations) -> Self {
-        Self { model, free, actuators: &data.actuators, measured: &data.measured }
+        Self { model, free, actuators: &data.actuators, measured: &data.measured, weights: None }
+    }
+
+    /// Lets each sample count by its weight.
+    pub fn weighted(self, weights: &'a [f64]) -> Self {
+        Self { weights: Some(weights), ..self }
     }
 
     /// Values of the free parameters.
@@ -76,6 +84,14 @@ impl<'a> StrainFit<'a> {
             let measured = &self.measured.as_slice()[o * self.samples() + first..];
             let both = block.output(o).iter().zip(measured);
             out.iter_mut().zip(both).for_each(|(out, (predicted, measured))| *out = predicted - measured);
+            self.weigh(first, out);
+        }
+    }
+
+    /// Multiplies the values of the samples from `first` on by their weights.
+    fn weigh(&self, first: usize, values: &mut [f64]) {
+        if let Some(weights) = self.weights {
+            values.iter_mut().zip(&weights[first..]).for_each(|(value, weight)| *value *= weight);
         }
     }
 }
@@ -117,6 +133,7 @@ impl Residuals for StrainFit<'_> {
             for (j, column) in slopes.as_mut_slice().chunks_exact_mut(height).enumerate() {
                 for (o, column) in column[row..row + out.len()].chunks_exact_mut(samples).enumerate() {
                     column.copy_from_slice(&block.by_parameter(o, j)[..samples]);
+                    self.weigh(first, column);
                 }
             }
             row += out.len();

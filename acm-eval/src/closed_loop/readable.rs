@@ -8,7 +8,10 @@ pub fn readable(finding: &Finding) -> Finding {
     let scaled = |value: f64| display.factor * value;
     let mut shown = finding.clone();
     shown.errors = errors(&finding.errors, display.symbol.clone(), &scaled);
-    shown.effects.iter_mut().for_each(|effect| effect.size = scaled(effect.size));
+    for effect in &mut shown.effects {
+        effect.size = scaled(effect.size);
+        effect.follows = effect.follows.map(scaled);
+    }
     shown.minor.iter_mut().for_each(|effect| effect.size = scaled(effect.size));
     for step in &mut shown.steps {
         step.error = scaled(step.error);

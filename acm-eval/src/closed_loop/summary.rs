@@ -60,7 +60,7 @@ fn one(effect: &FoundEffect, unit: &str) -> String {
     let title = paragraph(&format!("{}: {}; moves the outputs by {size}", effect.name, effect.meaning), "  ");
     let replaced = replaced_by(effect);
     let instead = if replaced.is_empty() { String::new() } else { format!("; else {replaced}") };
-    let sure = paragraph(&format!("  {}{instead}", confidence(effect)), "    ");
+    let sure = paragraph(&format!("  {}{instead}", confidence(effect, unit)), "    ");
     [title, sure].into_iter().chain(effect.parameters.iter().map(parameter)).collect::<Vec<_>>().join("\n")
 }
 

@@ -25,7 +25,7 @@ use rayon::prelude::*;
 use crate::diagnose::random::normal;
 use crate::diagnose::readout::Columns;
 use crate::diagnose::remainder::Remainder;
-use crate::diagnose::samples::{Sample, gather, median, median_step, moments};
+use crate::diagnose::samples::{Sample, gather, median, median_step, moments, standardised};
 
 /// A rate that is this share of the typical one bends tanh.
 const SLOW: f64 = 0.3;
@@ -74,13 +74,6 @@ pub(crate) fn features(remainder: &Remainder, samples: &[Sample], most: usize, s
     columns.append(&mut cosines);
     let columns: Vec<Column> = columns.par_iter().filter_map(standardised).collect();
     Columns { x: DMatrix::from_fn(samples.len(), columns.len(), |row, column| columns[column][row]), plain }
-}
-
-/// Standardises a column to mean 0 and variance 1; none where nothing varies.
-fn standardised(column: &Column) -> Option<Column> {
-    let (mean, sd) = moments(column);
-    let largest = column.iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
-    (sd > 1e-9 * largest).then(|| column.iter().map(|x| (x - mean) / sd).collect())
 }
 
 /// Divides a column by its root mean square; none where it is 0.

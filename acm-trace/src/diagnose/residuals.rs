@@ -1,6 +1,6 @@
 //! Residuals of a state on blocks left out, trial by trial.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 
 use crate::assemble::Assembled;
 use crate::diagnose::remainder::{Remainder, TrialRemainder};
@@ -8,6 +8,7 @@ use crate::fit::design::{Design, design, inputs};
 use crate::fit::gram;
 use crate::fit::problem::Problem;
 use crate::fit::state::State;
+use crate::series::Series;
 
 /// Residuals of each trial [N×M], weighted, with the slopes of the model there.
 #[derive(Debug, Clone)]
@@ -78,22 +79,26 @@ impl LeftOut {
     }
 }
 
-/// Returns the root mean square over samples of the change of the weighted outputs by effect `i`.
-pub fn size(problem: &Problem, state: &State, i: usize) -> f64 {
-    let Some(whole) = Assembled::new(problem, state) else { return f64::NAN };
+/// Returns the change of the weighted outputs by effect `i`, N×M of each trial; none where its model cannot be solved for.
+pub fn changes(problem: &Problem, state: &State, i: usize) -> Option<Vec<DMatrix<f64>>> {
+    let whole = Assembled::new(problem, state)?;
     let mut rest = whole.clone();
     rest.effects.remove(i);
     let (whole, rest) = (whole.model(), rest.model());
-    let (mut squares, mut count) = (0.0, 0usize);
-    for (s, series) in problem.series.iter().enumerate() {
+    let of = |series: &Series| {
         let nothing = DMatrix::zeros(series.record.samples(), problem.outputs());
         let change = whole.predict(&series.record, Some(&nothing)) - rest.predict(&series.record, Some(&nothing));
-        let weights = DVector::from_column_slice(problem.weight);
-        for &k in &problem.kept[s] {
-            let row = change.row(series.rows[k]).transpose().component_mul(&weights);
-            squares += row.norm_squared();
-            count += 1;
-        }
+        DMatrix::from_fn(series.rows.len(), problem.outputs(), |k, o| change[(series.rows[k], o)] * problem.weight[o])
+    };
+    Some(problem.series.iter().map(of).collect())
+}
+
+/// Returns the root mean square of changes over the samples that are compared.
+pub fn size(problem: &Problem, changes: &[DMatrix<f64>]) -> f64 {
+    let (mut squares, mut count) = (0.0, 0usize);
+    for (change, kept) in changes.iter().zip(&problem.kept) {
+        squares += kept.iter().map(|&k| change.row(k).norm_squared()).sum::<f64>();
+        count += kept.len();
     }
     (squares / count.max(1) as f64).sqrt()
 }

@@ -77,3 +77,10 @@ pub(crate) fn moments(values: &[f64]) -> (f64, f64) {
     let mean = values.iter().sum::<f64>() / n;
     (mean, (values.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / n).sqrt())
 }
+
+/// Standardises a column to mean 0 and variance 1; none where nothing varies.
+pub(crate) fn standardised(column: &Vec<f64>) -> Option<Vec<f64>> {
+    let (mean, sd) = moments(column);
+    let largest = column.iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
+    (sd > 1e-9 * largest).then(|| column.iter().map(|x| (x - mean) / sd).collect())
+}

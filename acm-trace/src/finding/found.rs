@@ -3,7 +3,8 @@
 use acm_core::effects::ParameterSpec;
 use acm_core::effects::instance::Instance;
 
-use crate::diagnose::residuals::size;
+use crate::diagnose::followed::followed;
+use crate::diagnose::residuals::{LeftOut, changes, size};
 use crate::finding::sentence;
 use crate::finding::{Alternative, Confidence, FoundEffect, FoundParameter, Level, MinorEffect, Verdict};
 use crate::fit::interval::{Intervals, intervals};
@@ -11,7 +12,7 @@ use crate::prepared::Prepared;
 use crate::search::candidates::CLOCK;
 use crate::search::confidence::Chosen;
 use crate::search::criteria::Criteria;
-use crate::trace::Traced;
+use crate::trace::{Options, Traced};
 
 /// What the last model has beside the nominal form.
 pub struct Found {
@@ -23,13 +24,16 @@ pub struct Found {
     pub clock_correction: Option<FoundParameter>,
 }
 
-/// Returns the effects of the last model, and the correction of the clock.
-pub fn found(prepared: &Prepared, traced: &Traced, criteria: &Criteria) -> Found {
+/// Returns the effects of the last model, and the correction of the clock; `left` is what the model leaves on blocks left out.
+pub fn found(prepared: &Prepared, traced: &Traced, left: Option<&LeftOut>, options: &Options) -> Found {
     let bounds = bounds(traced);
     let (mut effects, mut minor) = (vec![], vec![]);
     for (i, chosen) in traced.named().into_iter().enumerate() {
         match chosen {
-            Some(chosen) => effects.push(effect(prepared, traced, criteria, bounds.as_ref(), (i, chosen))),
+            Some(chosen) => {
+                let one = effect(prepared, traced, &options.criteria, bounds.as_ref(), (i, chosen));
+                effects.push(of_its_form(one, traced, left, (i, options.seed)));
+            }
             None => minor.push(minor_effect(traced, bounds.as_ref(), i)),
         }
     }
@@ -45,14 +49,38 @@ fn minor_effect(traced: &Traced, bounds: Option<&Intervals>, i: usize) -> MinorE
         meaning: instance.effect().meaning().into(),
         carrier: sentence::carrier(instance, rig),
         parameters: parameters(traced, bounds, i, rig),
-        size: size(&traced.problem, &traced.last, i),
+        size: changed(traced, i),
     }
 }
 
-/// Returns the effects with the confidence that the whole allows: none is sure where the verdict is incomplete, or the model predicts
+/// Returns the root mean square of the change of the outputs by effect `i`.
+fn changed(traced: &Traced, i: usize) -> f64 {
+    changes(&traced.problem, &traced.last, i).map_or(f64::NAN, |changes| size(&traced.problem, &changes))
+}
+
+/// Probability that what is left of noise follows an effect.
+const BY_CHANCE: f64 = 0.05;
+
+/// Largest part of what a sure effect removes that still follows it, root mean squares. On development seeds (14001 to 14006, with the own
+/// entry and without, several causes) right names had up to 0.052, wrong ones 0.073 to 0.18.
+const FOLLOWED: f64 = 0.06;
+
+/// Returns a sure effect as likely where more than a little of what is left follows it.
+fn of_its_form(effect: FoundEffect, traced: &Traced, left: Option<&LeftOut>, (i, seed): (usize, u64)) -> FoundEffect {
+    let (Some(left), Level::Sure) = (left, effect.confidence.level) else { return effect };
+    let Some(changes) = changes(&traced.problem, &traced.last, i) else { return effect };
+    let probe = followed(&left.remainder(&traced.problem, traced.noise), &changes, seed);
+    if probe.p > BY_CHANCE || probe.rms <= FOLLOWED * effect.removes {
+        return effect;
+    }
+    let confidence = Confidence { level: Level::Likely, ..effect.confidence };
+    FoundEffect { follows: Some(probe.rms), confidence, ..effect }
+}
+
+/// Returns the effects with the confidence that the whole allows: none is sure where the verdict is unknown structure, or the model predicts
 /// otherwise than the search did.
 pub fn downgraded(effects: Vec<FoundEffect>, verdict: Verdict, agrees: bool) -> Vec<FoundEffect> {
-    let most = if verdict.is_incomplete() || !agrees { Level::Likely } else { Level::Sure };
+    let most = if verdict == Verdict::UnknownStructure || !agrees { Level::Likely } else { Level::Sure };
     let level = |effect: &FoundEffect| Confidence { level: effect.confidence.level.min(most), ..effect.confidence };
     effects.into_iter().map(|effect| FoundEffect { confidence: level(&effect), ..effect }).collect()
 }
@@ -87,7 +115,7 @@ fn effect(
         }
     }
     let parameters = parameters(traced, bounds, i, rig);
-    let size = size(&traced.problem, &traced.last, i);
+    let size = changed(traced, i);
     let in_doubt = equivalent.len() > 1
         || parameters.iter().any(|parameter| parameter.at_bound)
         || may_be_silent(instance, &parameters)
@@ -101,6 +129,7 @@ fn effect(
         size,
         removes: (chosen.rise.max(0.0) / traced.problem.rows().max(1) as f64).sqrt(),
         confidence: Confidence { level: level(share, in_doubt, criteria), share },
+        follows: None,
         equivalent,
         alternatives: chosen
             .shares
@@ -246,7 +275,7 @@ mod tests {
 
     /// Oracle: the rule as the book has it.
     #[test]
-    fn an_incomplete_verdict_or_another_model_has_no_sure_name() {
+    fn an_unknown_structure_or_another_model_has_no_sure_name() {
         let found = |level| FoundEffect {
             name: "creep".into(),
             meaning: String::new(),
@@ -256,6 +285,7 @@ mod tests {
             size: 1.0,
             removes: 1.0,
             confidence: Confidence { level, share: 1.0 },
+            follows: None,
             equivalent: vec![],
             alternatives: vec![],
             in_calibration: None,
@@ -265,7 +295,7 @@ mod tests {
             let effects = [Level::Sure, Level::Likely, Level::Possible].map(found).to_vec();
             downgraded(effects, verdict, agrees).iter().map(|effect| effect.confidence.level).collect::<Vec<_>>()
         };
-        assert_eq!(of(Verdict::Partial, true), [Level::Likely, Level::Likely, Level::Possible]);
+        assert_eq!(of(Verdict::Partial, true), [Level::Sure, Level::Likely, Level::Possible]);
         assert_eq!(of(Verdict::UnknownStructure, true), [Level::Likely, Level::Likely, Level::Possible]);
         assert_eq!(of(Verdict::Named, false), [Level::Likely, Level::Likely, Level::Possible]);
         assert_eq!(of(Verdict::Named, true), [Level::Sure, Level::Likely, Level::Possible]);

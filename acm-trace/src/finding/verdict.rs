@@ -30,14 +30,6 @@ pub enum Verdict {
     UnmeasuredDisturbance,
 }
 
-impl Verdict {
-    /// Returns whether inputs still predict a residual that no effect explains: names and values may stand for a part
-    /// of it.
-    pub fn is_incomplete(self) -> bool {
-        matches!(self, Self::Partial | Self::UnknownStructure)
-    }
-}
-
 /// Whether a value rests on a bound that its effect admits: the effect imitates something else.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum AtBound {

@@ -3,6 +3,7 @@
 mod autocorrelation;
 mod campaign;
 mod events;
+mod followed;
 mod noise_floor;
 mod probe;
 mod recurrent;

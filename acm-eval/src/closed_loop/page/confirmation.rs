@@ -1,6 +1,6 @@
 //! Confirmation by held-out trials and confidence of effects, in words.
 
-use acm_core::display::percent;
+use acm_core::display::{percent, significant, with_symbol};
 use acm_trace::finding::{Confirmation, Finding, FoundEffect, Level};
 
 use crate::closed_loop::words::effect_words;
@@ -25,9 +25,17 @@ pub fn words(finding: &Finding) -> (&'static str, &'static str) {
     }
 }
 
-/// Writes `sure: chosen again in 97 % of resamples`.
-pub fn confidence(effect: &FoundEffect) -> String {
-    format!("{}: chosen again in {} of resamples", level(effect.confidence.level), percent(effect.confidence.share))
+/// Writes `sure: chosen again in 97 % of resamples`, and that what is left follows the effect where that puts its name in doubt.
+pub fn confidence(effect: &FoundEffect, unit: &str) -> String {
+    let follows = |rms| {
+        format!("; {} of what is left follows it: another of its kind may act", with_symbol(&significant(rms, 2), unit))
+    };
+    let doubt = effect.follows.map_or(String::new(), follows);
+    format!(
+        "{}: chosen again in {} of resamples{doubt}",
+        level(effect.confidence.level),
+        percent(effect.confidence.share)
+    )
 }
 
 /// Writes `sure`, `likely`, `possible`.

@@ -58,7 +58,7 @@ fn overview(finding: &Finding) -> Markup {
         vec![
             words::effect(&effect.name),
             cell(significant(effect.size, 3)),
-            cell(confidence(effect)),
+            cell(confidence(effect, &finding.errors.unit)),
             cell(if replaced.is_empty() { "nothing else in 5 % or more" } else { &replaced }),
         ]
     };
@@ -115,7 +115,7 @@ fn one(effect: &FoundEffect, unit: &str) -> Markup {
                 (entry("Moves the outputs by", &html! {
                     (with_symbol(&significant(effect.size, 3), unit)) " root mean square"
                 }))
-                (entry("Confidence", &cell(confidence(effect))))
+                (entry("Confidence", &cell(confidence(effect, unit))))
                 (entry("In calibration trials", &cell(in_calibration(effect.in_calibration))))
                 (entry("Equation from", &cell(&effect.source)))
             }

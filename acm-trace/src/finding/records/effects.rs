@@ -24,6 +24,10 @@ pub struct FoundEffect {
     pub removes: f64,
     /// Confidence in the name.
     pub confidence: Confidence,
+    /// Root mean square of the part of what is left that follows the effect, in the unit of the errors; none where that is too little to
+    /// put the name in doubt, or it is in doubt for another reason.
+    #[serde(default)]
+    pub follows: Option<f64>,
     /// Names of effects that explain as much, itself first.
     pub equivalent: Vec<String>,
     /// Effects that were chosen instead in resamples of the blocks.
@@ -111,7 +115,8 @@ pub enum Level {
     /// Chosen again in half of the resamples or more.
     Likely,
     /// Chosen again in 95 % or more. No other effect predicts as well, no value rests on a bound, the interval of one of its sizes at
-    /// least leaves out zero, others do not take most of it back, the saved model predicts as the search did, and the verdict is not incomplete.
+    /// least leaves out zero, others do not take most of it back, what is left does not follow it, the saved model predicts as the search
+    /// did, and the verdict is not unknown structure.
     Sure,
 }
 
