@@ -27,7 +27,7 @@ pub fn followed(remainder: &Remainder, changes: &[DMatrix<f64>], seed: u64) -> P
         let own = own(remainder, changes, samples);
         let plain = own.len().min(most);
         let signals = signals(remainder, samples);
-        let with = |d: &Column, z: &Column| standardised(&d.iter().zip(z).map(|(d, z)| d * z).collect());
+        let with = |d: &Column, z: &Column| standardised(&d.iter().zip(z).map(|(d, z)| d * z).collect::<Column>());
         let products = own.iter().flat_map(|d| signals.iter().filter_map(move |z| with(d, z)));
         let columns: Vec<Column> = own.iter().cloned().chain(products).take(most).collect();
         Columns { x: DMatrix::from_fn(samples.len(), columns.len(), |row, column| columns[column][row]), plain }

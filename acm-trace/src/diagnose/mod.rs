@@ -11,7 +11,6 @@
 
 pub mod autocorrelation;
 pub mod events;
-mod features;
 pub mod followed;
 mod library;
 pub mod noise_floor;

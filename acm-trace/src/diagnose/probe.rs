@@ -1,12 +1,14 @@
 //! Linear probe: part of the residual that a regression on recorded inputs and their past predicts on blocks left out.
 //!
-//! Columns are those of [`crate::diagnose::features`]; ridge, blocks left out and significance those of
+//! Columns are those of [`features`]; ridge, blocks left out and significance those of
 //! [`crate::diagnose::readout`].
 
-use crate::diagnose::features::features;
+mod features;
+
 use crate::diagnose::readout::readout;
 use crate::diagnose::remainder::Remainder;
 use crate::finding::Probe;
+use features::features;
 
 /// Tests whether the recorded inputs predict the residual. Where the data are too few, it returns a probe that explains
 /// nothing, with p = 1.

@@ -79,7 +79,7 @@ pub(crate) fn moments(values: &[f64]) -> (f64, f64) {
 }
 
 /// Standardises a column to mean 0 and variance 1; none where nothing varies.
-pub(crate) fn standardised(column: &Vec<f64>) -> Option<Vec<f64>> {
+pub(crate) fn standardised(column: &[f64]) -> Option<Vec<f64>> {
     let (mean, sd) = moments(column);
     let largest = column.iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
     (sd > 1e-9 * largest).then(|| column.iter().map(|x| (x - mean) / sd).collect())

@@ -52,7 +52,7 @@ pub(crate) fn features(remainder: &Remainder, samples: &[Sample], most: usize, s
     let rig = remainder.rig;
     let actuators: Vec<Column> = (0..rig.actuators.len()).map(|a| of(&|r| r.actuators[a].clone())).collect();
     let contexts: Vec<Column> = (0..rig.contexts.len()).map(|e| of(&|r| r.contexts[e].clone())).collect();
-    let signals: Vec<Column> = actuators.iter().chain(&contexts).filter_map(standardised).collect();
+    let signals: Vec<Column> = actuators.iter().chain(&contexts).filter_map(|column| standardised(column)).collect();
     let rates: Vec<Column> = (0..rig.actuators.len())
         .map(|a| of(&|r| r.actuator_rates[a].clone()))
         .filter_map(|rate| in_units_of_itself(&rate))
@@ -64,7 +64,7 @@ pub(crate) fn features(remainder: &Remainder, samples: &[Sample], most: usize, s
     columns.push(of(&|r| r.time.iter().map(|t| t - r.time[0]).collect()));
     columns.extend((0..3).map(|k| of(&|r| r.acceleration.get(k).cloned().unwrap_or_default())));
     columns.extend(memories(remainder, samples));
-    let mut columns: Vec<Column> = columns.iter().filter_map(standardised).take(most).collect();
+    let mut columns: Vec<Column> = columns.iter().filter_map(|column| standardised(column)).take(most).collect();
 
     let (plain, left) = (columns.len(), most - columns.len().min(most));
     columns.extend(products(&signals, &signs, &rates).take(left * 2 / 5));
@@ -72,7 +72,7 @@ pub(crate) fn features(remainder: &Remainder, samples: &[Sample], most: usize, s
     let left = most - columns.len().min(most);
     let mut cosines = random_cosines(&columns[..plain], left.min(MOST_COSINES), seed);
     columns.append(&mut cosines);
-    let columns: Vec<Column> = columns.par_iter().filter_map(standardised).collect();
+    let columns: Vec<Column> = columns.par_iter().filter_map(|column| standardised(column)).collect();
     Columns { x: DMatrix::from_fn(samples.len(), columns.len(), |row, column| columns[column][row]), plain }
 }
 
