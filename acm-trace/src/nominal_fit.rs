@@ -43,7 +43,7 @@ fn completion(model: &NominalModel, calibration: &Observations, case: &Case, is_
     if case.calibration.is_empty() {
         return None;
     }
-    let of = |trials: &[Trial]| thinned(observations(trials, &case.at, |trial| &trial.measured));
+    let of = |trials: &[Trial]| thinned(measured(observations(trials, &case.at, |trial| &trial.measured)));
     let alike = || calibrate(&case.nominal, &of(&[case.calibration.clone(), case.development.clone()].concat())).ok();
     let alike = if is_open { alike().map(|all| all.model) } else { None };
     let alike = match &alike {
@@ -156,6 +156,13 @@ fn observations(trials: &[Trial], at: &[f64], outputs: impl Fn(&Trial) -> &DMatr
         measured: stack(trials.iter().map(|trial| outputs(trial).clone()).collect()),
         at: at.to_vec(),
     }
+}
+
+/// Returns the samples at which everything was measured.
+fn measured(all: Observations) -> Observations {
+    let is_whole = |t: &usize| all.measured.row(*t).iter().all(|y| y.is_finite());
+    let rows: Vec<usize> = (0..all.samples()).filter(is_whole).collect();
+    Observations { actuators: all.actuators.select_rows(&rows), measured: all.measured.select_rows(&rows), at: all.at }
 }
 
 fn thinned(all: Observations) -> Observations {

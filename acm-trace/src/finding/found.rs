@@ -6,7 +6,7 @@ use acm_core::effects::instance::Instance;
 use crate::diagnose::followed::followed;
 use crate::diagnose::residuals::{LeftOut, changes, size};
 use crate::finding::sentence;
-use crate::finding::{Alternative, Confidence, FoundEffect, FoundParameter, Level, MinorEffect, Verdict};
+use crate::finding::{Alternative, Confidence, FoundEffect, FoundParameter, Level, MinorEffect, Probe, Verdict};
 use crate::fit::interval::{Intervals, intervals};
 use crate::prepared::Prepared;
 use crate::search::candidates::CLOCK;
@@ -70,11 +70,16 @@ fn of_its_form(effect: FoundEffect, traced: &Traced, left: Option<&LeftOut>, (i,
     let (Some(left), Level::Sure) = (left, effect.confidence.level) else { return effect };
     let Some(changes) = changes(&traced.problem, &traced.last, i) else { return effect };
     let probe = followed(&left.remainder(&traced.problem, traced.noise), &changes, seed);
-    if probe.p > BY_CHANCE || probe.rms <= FOLLOWED * effect.removes {
+    if !is_followed(&probe, effect.removes) {
         return effect;
     }
     let confidence = Confidence { level: Level::Likely, ..effect.confidence };
     FoundEffect { follows: Some(probe.rms), confidence, ..effect }
+}
+
+/// Returns whether more follows an effect than chance and its part of what it removes explain.
+fn is_followed(probe: &Probe, removes: f64) -> bool {
+    probe.p <= BY_CHANCE && probe.rms > FOLLOWED * removes
 }
 
 /// Returns the effects with the confidence that the whole allows: none is sure where the verdict is unknown structure, or the model predicts
@@ -271,6 +276,13 @@ mod tests {
         assert!(gains([-0.4, 0.5], [-1.0, 0.0]));
         assert!(!gains([-0.4, 0.5], [0.1, 0.5]));
         assert!(!silent("second_order_lag", &[("damping", [0.0, 1.0])]));
+    }
+
+    /// Oracle: by hand. Of 10 mm that an effect removes 0.6 mm may follow it, and any that chance explains.
+    #[test]
+    fn an_effect_is_followed_beyond_chance_and_its_part() {
+        let of = |p, rms| is_followed(&Probe { explained: 0.5, by_chance: 0.05, p, rms }, 0.010);
+        assert_eq!([of(0.01, 0.0005), of(0.01, 0.0007), of(0.06, 0.0007)], [false, true, false]);
     }
 
     /// Oracle: the rule as the book has it.
