@@ -6,7 +6,7 @@ use acm_core::effects::instance::{Instance, Term};
 use acm_core::polynomial::Polynomial;
 use acm_core::record::Record;
 use acm_core::rig::{Mounting, Rig, Signal};
-use acm_core::static_map::{Discrepancy, StaticMap};
+use acm_core::static_map::StaticMap;
 use acm_core::{ArmSpec, InterSample, NominalModel, StrainModel};
 use nalgebra::{DMatrix, Vector3};
 
@@ -96,11 +96,9 @@ fn arm() -> NominalModel {
 }
 
 fn static_map(outputs: usize) -> StaticMap {
-    let actuators = DMatrix::from_fn(400, 2, |t, a| ((0.37 * (a + 1) as f64) * t as f64).sin());
-    let residual = DMatrix::from_fn(400, outputs, |t, o| 0.01 * (o as f64 + actuators[(t, 0)] * actuators[(t, 1)]));
-    let block: Vec<usize> = (0..400).map(|t| t / 40).collect();
-    let data = Discrepancy { actuators: &actuators, residual: &residual, block: &block, trial: &block };
-    StaticMap::learn(data).expect("a map")
+    let powers = [vec![0, 0], vec![1, 0], vec![0, 2], vec![1, 1]];
+    let coefficients = DMatrix::from_fn(4, outputs, |j, o| 0.01 * (o as f64 - 0.4 * j as f64));
+    StaticMap::from_powers(vec![-1.0, -1.0], vec![1.0, 1.0], &powers, &coefficients)
 }
 
 /// Everything sample by sample, from time stamps and values of the record.

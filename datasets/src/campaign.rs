@@ -7,7 +7,6 @@ use acm_core::nominal::NominalSpec;
 use acm_core::observations::Observations;
 use nalgebra::DMatrix;
 
-use crate::checks::consistency;
 use crate::entry::Entry;
 use crate::error::DataError;
 use crate::folds;
@@ -127,11 +126,6 @@ impl Campaign {
         let (names, entries) = (if names.is_empty() { &all } else { names }, self.entries(f64::INFINITY));
         let parsed = names.iter().map(|n| Channel::parse(n, &self.manifest, &entries));
         parsed.collect::<Result<_, _>>().map_err(|e| DataError::Usage(e.to_string()))
-    }
-
-    /// Development and held-out trials that have no `length` samples in a row without a gap over `max_gap` seconds.
-    pub fn shorter_than(&self, length: usize, max_gap: f64) -> Vec<DataError> {
-        consistency::windows(&self.entries(max_gap), length, max_gap)
     }
 
     /// The list of the trials; a step in time over `max_gap` seconds is a gap.

@@ -9,8 +9,6 @@
 use nalgebra::DMatrix;
 use serde::{Deserialize, Serialize};
 
-use crate::preprocessing::series::Series;
-
 /// Mean and spread of each column, in the columns' units.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -22,16 +20,6 @@ pub struct Standardizer {
 }
 
 impl Standardizer {
-    /// Scaler from the inputs of the training series.
-    pub fn of_inputs(training: &[&Series]) -> Standardizer {
-        Standardizer::fit(&training.iter().map(|s| &s.inputs).collect::<Vec<_>>())
-    }
-
-    /// Scaler from the targets of the training series.
-    pub fn of_targets(training: &[&Series]) -> Standardizer {
-        Standardizer::fit(&training.iter().map(|s| &s.target).collect::<Vec<_>>())
-    }
-
     /// Scaler from the rows of all parts, `[T×C]` each, in two passes.
     ///
     /// # Panics
