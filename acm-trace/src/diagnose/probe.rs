@@ -1,6 +1,6 @@
 //! Linear probe: part of the residual that a regression on recorded inputs and their past predicts on blocks left out.
 //!
-//! Columns are those of [`features`]; ridge, blocks left out and significance those of
+//! Columns are those of `probe/features.rs`; ridge, blocks left out and significance those of
 //! [`crate::diagnose::readout`].
 
 mod features;
