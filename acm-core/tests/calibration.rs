@@ -293,3 +293,19 @@ fn further_trials_decide_what_a_calibration_leaves_open() {
     assert!(error(&completed, &further) < 0.04, "{}", error(&completed, &further));
     assert!(error(&completed, &calibration) < 0.002, "{}", error(&completed, &calibration));
 }
+
+/// Oracle: the truth, which is the other start. From strain that is curled up the fit ends elsewhere.
+#[test]
+fn a_completion_takes_the_better_of_two_starts() {
+    let truth = paper_truth();
+    let [calibration, further] = open(&truth, 0.0);
+    let mut theta = truth.parameters().to_vec();
+    theta[..18].iter_mut().for_each(|p| *p = 40.0 * *p + 9.0);
+    let curled = truth.clone().with_parameters(&theta);
+    let error = |other: Option<&StrainModel>| {
+        let model = NominalModel::Strain(completed(&curled, &calibration, &further, other));
+        (model.predict(&further.actuators) - &further.measured).norm() / (further.samples() as f64).sqrt()
+    };
+    let (alone, beside) = (error(None), error(Some(&truth)));
+    assert!(alone > 0.05 && beside < 1e-6, "{alone} {beside}");
+}

@@ -16,7 +16,7 @@
 
 use std::iter;
 
-use nalgebra::DMatrix;
+use nalgebra::stack;
 
 use crate::fitting::calibration::identified;
 use crate::fitting::levenberg_marquardt::Options;
@@ -34,6 +34,7 @@ pub const FURTHER: f64 = 1e-2;
 ///
 /// # Panics
 /// Where actuators or markers of the two are not those of the model.
+#[expect(clippy::toplevel_ref_arg, reason = "nalgebra::stack! writes it")]
 pub fn completed(
     model: &StrainModel,
     calibration: &Observations,
@@ -41,8 +42,8 @@ pub fn completed(
     other: Option<&StrainModel>,
 ) -> StrainModel {
     let all = Observations {
-        actuators: stacked(&calibration.actuators, &further.actuators),
-        measured: stacked(&calibration.measured, &further.measured),
+        actuators: stack![calibration.actuators; further.actuators],
+        measured: stack![calibration.measured; further.measured],
         at: calibration.at.clone(),
     };
     let [own, others] = [calibration.samples(), further.samples()];
@@ -53,11 +54,4 @@ pub fn completed(
     let starts: Vec<Vec<f64>> = iter::once(model).chain(other).map(|start| of(start).start()).collect();
     let best = multi_start(&problem, &starts, &problem.bounds(), &Options::default());
     best.map_or_else(|| model.clone(), |fit| model.clone().with_parameters(&problem.all(&fit.theta)))
-}
-
-fn stacked(above: &DMatrix<f64>, below: &DMatrix<f64>) -> DMatrix<f64> {
-    let mut all = DMatrix::zeros(above.nrows() + below.nrows(), above.ncols());
-    all.rows_mut(0, above.nrows()).copy_from(above);
-    all.rows_mut(above.nrows(), below.nrows()).copy_from(below);
-    all
 }

@@ -2,8 +2,10 @@
 
 use acm_core::effects::ParameterSpec;
 use acm_core::effects::instance::Instance;
+use nalgebra::DMatrix;
 
 use crate::diagnose::followed::followed;
+use crate::diagnose::remainder::Remainder;
 use crate::diagnose::residuals::{LeftOut, changes, size};
 use crate::finding::sentence;
 use crate::finding::{Alternative, Confidence, FoundEffect, FoundParameter, Level, MinorEffect, Probe, Verdict};
@@ -27,14 +29,17 @@ pub struct Found {
 /// Returns the effects of the last model, and the correction of the clock; `left` is what the model leaves on blocks left out.
 pub fn found(prepared: &Prepared, traced: &Traced, left: Option<&LeftOut>, options: &Options) -> Found {
     let bounds = bounds(traced);
+    let remainder = left.map(|left| left.remainder(&traced.problem, traced.noise));
     let (mut effects, mut minor) = (vec![], vec![]);
     for (i, chosen) in traced.named().into_iter().enumerate() {
+        let changes = changes(&traced.problem, &traced.last, i);
+        let size = changes.as_ref().map_or(f64::NAN, |changes| size(&traced.problem, changes));
         match chosen {
             Some(chosen) => {
-                let one = effect(prepared, traced, &options.criteria, bounds.as_ref(), (i, chosen));
-                effects.push(of_its_form(one, traced, left, (i, options.seed)));
+                let one = effect(prepared, traced, &options.criteria, bounds.as_ref(), (i, chosen, size));
+                effects.push(of_its_form(one, remainder.as_ref(), changes.as_deref(), options.seed));
             }
-            None => minor.push(minor_effect(traced, bounds.as_ref(), i)),
+            None => minor.push(minor_effect(traced, bounds.as_ref(), (i, size))),
         }
     }
     effects.sort_by(|a, b| b.size.total_cmp(&a.size));
@@ -42,20 +47,15 @@ pub fn found(prepared: &Prepared, traced: &Traced, left: Option<&LeftOut>, optio
     Found { effects, minor, clock_correction: clock(traced, bounds.as_ref()) }
 }
 
-fn minor_effect(traced: &Traced, bounds: Option<&Intervals>, i: usize) -> MinorEffect {
+fn minor_effect(traced: &Traced, bounds: Option<&Intervals>, (i, size): (usize, f64)) -> MinorEffect {
     let (rig, instance) = (traced.problem.rig, &traced.last.effects[i].instance);
     MinorEffect {
         name: instance.effect().name().into(),
         meaning: instance.effect().meaning().into(),
         carrier: sentence::carrier(instance, rig),
         parameters: parameters(traced, bounds, i, rig),
-        size: changed(traced, i),
+        size,
     }
-}
-
-/// Returns the root mean square of the change of the outputs by effect `i`.
-fn changed(traced: &Traced, i: usize) -> f64 {
-    changes(&traced.problem, &traced.last, i).map_or(f64::NAN, |changes| size(&traced.problem, &changes))
 }
 
 /// Probability that what is left of noise follows an effect.
@@ -66,10 +66,16 @@ const BY_CHANCE: f64 = 0.05;
 const FOLLOWED: f64 = 0.06;
 
 /// Returns a sure effect as likely where more than a little of what is left follows it.
-fn of_its_form(effect: FoundEffect, traced: &Traced, left: Option<&LeftOut>, (i, seed): (usize, u64)) -> FoundEffect {
-    let (Some(left), Level::Sure) = (left, effect.confidence.level) else { return effect };
-    let Some(changes) = changes(&traced.problem, &traced.last, i) else { return effect };
-    let probe = followed(&left.remainder(&traced.problem, traced.noise), &changes, seed);
+fn of_its_form(
+    effect: FoundEffect,
+    remainder: Option<&Remainder>,
+    changes: Option<&[DMatrix<f64>]>,
+    seed: u64,
+) -> FoundEffect {
+    let (Some(remainder), Some(changes), Level::Sure) = (remainder, changes, effect.confidence.level) else {
+        return effect;
+    };
+    let probe = followed(remainder, changes, seed);
     if !is_followed(&probe, effect.removes) {
         return effect;
     }
@@ -107,7 +113,7 @@ fn effect(
     traced: &Traced,
     criteria: &Criteria,
     bounds: Option<&Intervals>,
-    (i, chosen): (usize, &Chosen),
+    (i, chosen, size): (usize, &Chosen, f64),
 ) -> FoundEffect {
     let rig = &prepared.case.rig;
     let instance = &traced.last.effects[i].instance;
@@ -120,7 +126,6 @@ fn effect(
         }
     }
     let parameters = parameters(traced, bounds, i, rig);
-    let size = changed(traced, i);
     let in_doubt = equivalent.len() > 1
         || parameters.iter().any(|parameter| parameter.at_bound)
         || may_be_silent(instance, &parameters)
