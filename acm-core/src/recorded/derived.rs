@@ -2,44 +2,50 @@
 //!
 //! They are kept by a hash of time stamps and signal, so that a record whose signals are changed has others.
 
-use std::collections::HashMap;
 use std::hash::{DefaultHasher, Hasher};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
+
+use quick_cache::Weighter;
+use quick_cache::sync::Cache;
 
 use crate::effects::memory::{Derivative, Derivatives};
 
-/// Approximate limit of kept numbers of one record. Beyond it all are deleted.
-const MOST: usize = 1_000_000;
+/// Limit of kept derivatives of one record.
+const MOST: u64 = 1_000_000;
+
+/// Signals and windows that there is room for from the start: so few that they are kept in one piece, which has room for long ones.
+const EXPECTED: usize = 16;
 
 /// See the head of this file. A copy of a record begins without.
-#[derive(Debug, Default)]
-pub struct Derived(Mutex<Kept>);
+#[derive(Debug)]
+pub struct Derived(Cache<(u64, u64), Arc<Vec<Derivative>>, Length>);
 
-#[derive(Debug, Default)]
-struct Kept {
-    of: HashMap<(u64, u64), Arc<Vec<Derivative>>>,
-    numbers: usize,
+/// Weight of a signal: its length.
+#[derive(Debug, Clone)]
+struct Length;
+
+impl Weighter<(u64, u64), Arc<Vec<Derivative>>> for Length {
+    fn weight(&self, _: &(u64, u64), found: &Arc<Vec<Derivative>>) -> u64 {
+        found.len() as u64
+    }
 }
 
 impl Derived {
     /// Returns the derivatives of a signal, by a quartic through a window of half a width of `window`, s.
     pub fn of(&self, time: &[f64], signal: &[f64], window: f64) -> Arc<Vec<Derivative>> {
         let key = (hash(time, signal), window.to_bits());
-        if let Some(known) = self.lock().of.get(&key) {
-            return known.clone();
+        if let Some(known) = self.0.get(&key) {
+            return known;
         }
         let found = Arc::new(Derivatives::quartic().of(time, signal, window).to_vec());
-        let mut kept = self.lock();
-        if kept.numbers > MOST {
-            *kept = Kept::default();
-        }
-        kept.numbers += 3 * found.len();
-        kept.of.insert(key, found.clone());
+        self.0.insert(key, found.clone());
         found
     }
+}
 
-    fn lock(&self) -> std::sync::MutexGuard<'_, Kept> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+impl Default for Derived {
+    fn default() -> Self {
+        Self(Cache::with_weighter(EXPECTED, MOST, Length))
     }
 }
 
@@ -79,6 +85,6 @@ mod tests {
                 assert_eq!(*derived.of(&time, &signal, window), fresh);
             }
         }
-        assert_eq!(derived.lock().of.len(), 4);
+        assert_eq!(derived.0.len(), 4);
     }
 }

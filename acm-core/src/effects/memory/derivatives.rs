@@ -22,8 +22,6 @@
 //! Linear in the number of samples: sums of powers run along blocks of one h, each about its own middle, so that they lose
 //! no more than three digits.
 
-use nalgebra::{Matrix5, Vector5};
-
 use super::{State, take_room};
 use crate::slope::slope_at;
 
@@ -257,10 +255,30 @@ impl Moments {
 
     fn quartic(&self) -> Option<[f64; 3]> {
         let ridge = |k: usize| if k > 2 { RIDGE * self.times[0] } else { 0.0 };
-        let all = Matrix5::from_fn(|i, j| self.times[i + j] + if i == j { ridge(i) } else { 0.0 });
-        let solution = all.cholesky()?.solve(&Vector5::from(self.products));
-        Some([solution[0], solution[1], solution[2]])
+        let matrix =
+            std::array::from_fn(|i| std::array::from_fn(|j| self.times[i + j] + if i == j { ridge(i) } else { 0.0 }));
+        first_of_solution(matrix, self.products)
     }
+}
+
+/// The first three of five unknowns; none where the matrix is not positive definite. The last ones are eliminated first, and sizes are
+/// known when it is compiled: it runs at every sample.
+fn first_of_solution(mut a: [[f64; 5]; 5], mut b: [f64; 5]) -> Option<[f64; 3]> {
+    for k in (1..5).rev() {
+        for i in 0..k {
+            let share = a[k][i] / a[k][k];
+            for j in 0..=i {
+                a[i][j] -= share * a[k][j];
+            }
+            b[i] -= share * b[k];
+        }
+    }
+    if !(0..5).all(|k| a[k][k] > 0.0) {
+        return None;
+    }
+    let first = b[0] / a[0][0];
+    let second = (b[1] - a[1][0] * first) / a[1][1];
+    Some([first, second, (b[2] - a[2][0] * first - a[2][1] * second) / a[2][2]])
 }
 
 /// Moments about 0 become moments about `centre`: Horner's scheme of each power of (s − centre).
