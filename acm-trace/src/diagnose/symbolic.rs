@@ -29,7 +29,7 @@ use crate::diagnose::library::{Term, terms};
 use crate::diagnose::remainder::Remainder;
 use crate::diagnose::samples::{Sample, residuals, samples};
 use crate::finding::Symbolic;
-use orthogonal::{RANK, direction, without};
+use orthogonal::{RANK, basis, direction, without};
 
 /// Samples at most.
 const MOST_SAMPLES: usize = 4000;
@@ -80,6 +80,8 @@ struct Search {
     residual: Vec<f64>,
     /// Orthonormal directions that calibration absorbs.
     absorbed: Vec<Vec<f64>>,
+    /// Squared norm of each term at each place, and what of it lies beside the directions that calibration absorbs.
+    squares: [DMatrix<f64>; 2],
     /// Samples of each block.
     blocks: Vec<Vec<usize>>,
     floor: f64,
@@ -98,11 +100,15 @@ impl Search {
             outputs,
             slopes: slopes(remainder, &rows),
             residual: residuals(remainder, &rows),
-            absorbed: basis(remainder, absorbed, &rows),
+            absorbed: basis(&at_samples(remainder, absorbed, &rows)),
+            squares: [DMatrix::zeros(0, 0), DMatrix::zeros(0, 0)],
             blocks,
             floor: remainder.floor,
         };
         search.residual = without(search.residual, &search.absorbed);
+        let whole = search.squares();
+        let beside = &whole - search.squares_along(&search.absorbed);
+        search.squares = [whole, beside];
         (search.blocks.len() > 1).then_some(search)
     }
 
@@ -145,17 +151,15 @@ impl Search {
 
     /// Returns the pairs (term, place) that reduce the sum of squares most, beside the chosen ones.
     fn short_list(&self, chosen: &[Column]) -> Vec<(usize, usize)> {
-        let mut directions = self.absorbed.clone();
+        // Residual and columns are beside what calibration absorbs.
+        let mut directions: Vec<Vec<f64>> = vec![];
         for column in chosen {
             directions.extend(direction(column.values.clone(), &directions));
         }
         let left = without(self.residual.clone(), &directions);
-        let whole = self.squares();
-        let mut norms = whole.clone();
-        for direction in &directions {
-            norms -= self.products(direction).map(|product| product * product);
-        }
-        let gains = self.products(&left).zip_zip_map(&whole, &norms, |product, whole, norm| {
+        let [whole, beside] = &self.squares;
+        let norms = beside - self.squares_along(&directions);
+        let gains = self.products(&left).zip_zip_map(whole, &norms, |product, whole, norm| {
             if norm > RANK * whole && whole > 0.0 { product * product / norm } else { 0.0 }
         });
         let mut list: Vec<(usize, usize)> = (0..gains.ncols())
@@ -210,14 +214,12 @@ fn slopes(remainder: &Remainder, rows: &[Sample]) -> Vec<f64> {
     rows.iter().flat_map(row).map(|slope| if slope.is_finite() { *slope } else { 0.0 }).collect()
 }
 
-/// Returns orthonormal directions of what calibration absorbs, at the samples.
-fn basis(remainder: &Remainder, absorbed: &[DMatrix<f64>], rows: &[Sample]) -> Vec<Vec<f64>> {
+/// Returns the directions that calibration absorbs, at the samples.
+fn at_samples(remainder: &Remainder, absorbed: &[DMatrix<f64>], rows: &[Sample]) -> DMatrix<f64> {
     let (outputs, count) = (remainder.outputs(), absorbed.first().map_or(0, DMatrix::ncols));
-    let mut directions: Vec<Vec<f64>> = Vec::new();
-    for k in 0..count {
-        let places = rows.iter().flat_map(|s| (0..outputs).map(move |m| (s.trial, s.t * outputs + m)));
-        let vector = places.map(|(trial, row)| absorbed[trial][(row, k)]).collect();
-        directions.extend(direction(vector, &directions));
-    }
-    directions
+    let entry = |k: usize, j: usize| {
+        let sample = &rows[k / outputs];
+        absorbed[sample.trial][(sample.t * outputs + k % outputs, j)]
+    };
+    DMatrix::from_fn(rows.len() * outputs, count, entry)
 }
