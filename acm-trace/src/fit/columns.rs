@@ -1,18 +1,28 @@
 //! Cached columns at the compared samples: a search uses the same effects with the same values many times.
 
-use std::collections::HashMap;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
+
+use quick_cache::Weighter;
+use quick_cache::sync::Cache;
 
 use super::state::Placed;
 
-/// Approximate limit of cached numbers of each kind. Beyond it, all columns of the kind are deleted.
-const MOST: usize = 10_000_000;
+/// Limit of cached numbers of each kind.
+const MOST: u64 = 10_000_000;
+
+/// Columns of a kind that there is room for from the start: so few that they are kept in one piece, which has room for long ones.
+const EXPECTED: usize = 32;
+
+/// Number of kinds.
+const KINDS: usize = Kind::Filtered as usize + 1;
 
 /// Kinds of cached columns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Kind {
     /// A column of an additive effect.
     Additive,
+    /// The same at every sample of the record.
+    AdditiveCourse,
     /// Inputs as a chain of effects leaves them.
     Inputs,
     /// Columns that are the same at every sample of the record.
@@ -23,6 +33,8 @@ pub enum Kind {
     Nominal,
     /// The same at every sample of the record.
     Unfiltered,
+    /// The base and the columns of the correction, or a column of an additive effect, behind filters.
+    Filtered,
 }
 
 /// Key of a column: trial, effects with their signals and values, and further values that it depends on.
@@ -35,13 +47,27 @@ pub struct Key {
 }
 
 impl Key {
-    /// Returns the key of one group of linear parameters of an effect; their own values do not matter.
+    /// Returns the key of one group of an effect's linear parameters, whose own values do not matter.
     pub fn group(trial: usize, placed: &Placed, group: usize, clock: f64) -> Self {
         let linear = placed.linear();
         let nonlinear = placed.theta.iter().enumerate().filter(|(j, _)| !linear.contains(j));
         let mut values: Vec<u64> = nonlinear.map(|(_, value)| value.to_bits()).collect();
         values.extend([clock.to_bits(), group as u64]);
         Self { kind: Kind::Additive, trial, of: named(placed), values }
+    }
+
+    /// Returns the key of these columns behind filters.
+    pub fn behind(mut self, filters: &[&Placed]) -> Self {
+        for placed in filters {
+            self.of.push_str(&named(placed));
+            self.values.extend(placed.theta.iter().map(|value| value.to_bits()));
+        }
+        Self { kind: Kind::Filtered, ..self }
+    }
+
+    /// Returns the key of the same column at every sample of the record.
+    pub fn throughout(self) -> Self {
+        Self { kind: Kind::AdditiveCourse, ..self }
     }
 
     /// Returns the key of columns that several effects share, with further values that they depend on.
@@ -58,38 +84,43 @@ fn named(placed: &Placed) -> String {
 }
 
 /// Cached columns by their keys; shared by all clones.
-#[derive(Debug, Clone, Default)]
-pub struct Columns([Arc<Mutex<Kept>>; 6]);
+#[derive(Debug, Clone)]
+pub struct Columns(Arc<[Cache<Key, Arc<Vec<f64>>, Length>; KINDS]>);
 
-#[derive(Debug, Default)]
-struct Kept {
-    columns: HashMap<Key, Arc<Vec<f64>>>,
-    numbers: usize,
+/// Weight of a column: its length.
+#[derive(Debug, Clone)]
+struct Length;
+
+impl Weighter<Key, Arc<Vec<f64>>> for Length {
+    fn weight(&self, _: &Key, column: &Arc<Vec<f64>>) -> u64 {
+        column.len() as u64
+    }
+}
+
+impl Default for Columns {
+    fn default() -> Self {
+        Self(Arc::new(std::array::from_fn(|_| Cache::with_weighter(EXPECTED, MOST, Length))))
+    }
 }
 
 impl Columns {
-    /// Returns the column of a key, computed where it is not known.
+    /// Returns the column of a key, computed where it is not known. Threads that ask at once compute it each: none waits for another,
+    /// which may be busy with what this one does.
     pub fn get(&self, key: Key, compute: impl FnOnce() -> Vec<f64>) -> Arc<Vec<f64>> {
         if let Some(known) = self.known(&key) {
             return known;
         }
-        self.put(key, compute())
+        self.put(key, Arc::new(compute()))
     }
 
     /// Returns the column of a key where it is known.
     pub fn known(&self, key: &Key) -> Option<Arc<Vec<f64>>> {
-        self.0[key.kind as usize].lock().unwrap_or_else(PoisonError::into_inner).columns.get(key).cloned()
+        self.0[key.kind as usize].get(key)
     }
 
     /// Stores a column.
-    pub fn put(&self, key: Key, column: Vec<f64>) -> Arc<Vec<f64>> {
-        let column = Arc::new(column);
-        let mut kept = self.0[key.kind as usize].lock().unwrap_or_else(PoisonError::into_inner);
-        if kept.numbers > MOST {
-            *kept = Kept::default();
-        }
-        kept.numbers += column.len();
-        kept.columns.insert(key, column.clone());
+    pub fn put(&self, key: Key, column: Arc<Vec<f64>>) -> Arc<Vec<f64>> {
+        self.0[key.kind as usize].insert(key, column.clone());
         column
     }
 }

@@ -36,8 +36,8 @@ struct Products {
     h: DMatrix<f64>,
     /// Squared norms ‖y‖² of each column.
     yy: DVector<f64>,
-    /// Products XᵀZ_m of each output, p × c.
-    b: Vec<DMatrix<f64>>,
+    /// Products XᵀZ_m, those of each output beside those of the one before, p × M c.
+    b: DMatrix<f64>,
     /// Sums Σ_m Z_mᵀZ_m, c × c.
     zz: DMatrix<f64>,
     /// Sums Σ_m Z_mᵀy_m, c.
@@ -78,10 +78,13 @@ impl Grams {
         let own = DVector::from_iterator(p, design.x.column_iter().map(|x| rms(x.norm_squared())));
         let shared = DVector::from_iterator(c, design.coupled.iter().map(|z| rms(z.norm_squared())));
         let width = design.y.ncols();
-        // Z_m: the coupled columns of one output beside one another.
-        let z: Vec<DMatrix<f64>> = (0..width)
-            .map(|m| DMatrix::from_fn(design.x.nrows(), c, |k, j| design.coupled[j][(k, m)] / shared[j]))
-            .collect();
+        // The coupled columns of each output beside those of the one before.
+        let mut z = DMatrix::zeros(design.x.nrows(), width * c);
+        for (j, coupled) in design.coupled.iter().enumerate() {
+            for (m, of_output) in coupled.column_iter().enumerate() {
+                z.set_column(m * c + j, &(of_output / shared[j]));
+            }
+        }
         let of = |rows: &Range<usize>| Products::new(&design.x, &z, &design.y, rows).scaled(&own);
         let parts = blocks.rows.iter().map(of).collect();
         Self { parts, scale: (own, shared), shrunk: DVector::from_column_slice(&design.shrunk) }
@@ -107,19 +110,18 @@ impl Grams {
         if c == 0 {
             return Some(Coefficients { beta, alpha: DVector::zeros(0) });
         }
-        let through: Vec<DMatrix<f64>> = kept.b.iter().map(|b| factor.solve(b)).collect();
+        let through = factor.solve(&kept.b);
         let mut s = kept.zz.clone();
         (0..c).for_each(|j| s[(j, j)] += COUPLED_JITTER * n);
         let mut along = kept.zy.clone();
-        for (m, (b, w)) in kept.b.iter().zip(&through).enumerate() {
-            s -= b.tr_mul(w);
+        for m in 0..beta.ncols() {
+            let w = through.columns(m * c, c);
+            s -= kept.b.columns(m * c, c).tr_mul(&w);
             along -= w.tr_mul(&kept.h.column(m));
         }
         let alpha = s.cholesky()?.solve(&along);
-        for (m, w) in through.iter().enumerate() {
-            let moved = w * &alpha;
-            let mut own = beta.column_mut(m);
-            own -= moved;
+        for (m, mut own) in beta.column_iter_mut().enumerate() {
+            own.gemv(-1.0, &through.columns(m * c, c), &alpha, 1.0);
         }
         Some(Coefficients { beta, alpha })
     }
@@ -178,20 +180,20 @@ pub fn left_out(design: &Design, blocks: &Blocks, ridge: f64) -> Option<DMatrix<
 }
 
 impl Products {
-    fn new(x: &DMatrix<f64>, z: &[DMatrix<f64>], y: &DMatrix<f64>, rows: &Range<usize>) -> Self {
-        let c = z.first().map_or(0, DMatrix::ncols);
-        let (mut zz, mut zy, mut b) = (DMatrix::zeros(c, c), DVector::zeros(c), vec![]);
-        for (m, z) in z.iter().enumerate().filter(|_| c > 0) {
-            zz += product(z, z, rows.clone());
-            zy += z.rows(rows.start, rows.len()).tr_mul(&y.column(m).rows(rows.start, rows.len()));
-            b.push(product(x, z, rows.clone()));
+    fn new(x: &DMatrix<f64>, z: &DMatrix<f64>, y: &DMatrix<f64>, rows: &Range<usize>) -> Self {
+        let c = z.ncols() / y.ncols().max(1);
+        let (mut zz, mut zy) = (DMatrix::zeros(c, c), DVector::zeros(c));
+        for (m, y) in y.column_iter().enumerate() {
+            let z = z.view((rows.start, m * c), (rows.len(), c));
+            zz += z.tr_mul(&z);
+            zy += z.tr_mul(&y.rows(rows.start, rows.len()));
         }
         let yy = y.column_iter().map(|y| y.rows(rows.start, rows.len()).norm_squared());
         Self {
             g: product(x, x, rows.clone()),
             h: product(x, y, rows.clone()),
             yy: DVector::from_iterator(y.ncols(), yy),
-            b,
+            b: product(x, z, rows.clone()),
             zz,
             zy,
             rows: rows.len(),
@@ -201,7 +203,7 @@ impl Products {
     /// Returns the products of columns of X that are divided by these.
     fn scaled(mut self, scale: &DVector<f64>) -> Self {
         self.g.column_iter_mut().zip(scale.iter()).for_each(|(mut column, scale)| column /= *scale);
-        for x in [&mut self.g, &mut self.h].into_iter().chain(&mut self.b) {
+        for x in [&mut self.g, &mut self.h, &mut self.b] {
             x.column_iter_mut().for_each(|mut column| column.component_div_assign(scale));
         }
         self
@@ -213,7 +215,7 @@ impl Products {
             g: zero(&self.g),
             h: zero(&self.h),
             yy: DVector::zeros(self.yy.len()),
-            b: self.b.iter().map(zero).collect(),
+            b: zero(&self.b),
             zz: zero(&self.zz),
             zy: DVector::zeros(self.zy.len()),
             rows: 0,
@@ -228,7 +230,7 @@ impl Products {
         into(&mut self.g, &other.g);
         into(&mut self.h, &other.h);
         self.yy.axpy(sign, &other.yy, 1.0);
-        self.b.iter_mut().zip(&other.b).for_each(|(own, other)| into(own, other));
+        into(&mut self.b, &other.b);
         into(&mut self.zz, &other.zz);
         self.zy.axpy(sign, &other.zy, 1.0);
         if sign > 0.0 { self.rows += other.rows } else { self.rows -= other.rows }
@@ -238,10 +240,11 @@ impl Products {
     fn loss(&self, solved: &Coefficients) -> f64 {
         let (beta, alpha) = (&solved.beta, &solved.alpha);
         let mut loss = self.yy.sum() - 2.0 * beta.dot(&self.h) + beta.dot(&(&self.g * beta));
-        for (m, b) in self.b.iter().enumerate() {
-            loss += 2.0 * beta.column(m).dot(&(b * alpha));
-        }
         if !alpha.is_empty() {
+            let c = alpha.len();
+            for (m, beta) in beta.column_iter().enumerate() {
+                loss += 2.0 * beta.dot(&(self.b.columns(m * c, c) * alpha));
+            }
             loss += alpha.dot(&(&self.zz * alpha)) - 2.0 * alpha.dot(&self.zy);
         }
         loss.max(0.0)

@@ -2,7 +2,7 @@
 
 use nalgebra::DMatrix;
 
-use super::inputs;
+use super::inputs::inputs;
 use crate::fit::columns::Columns;
 use crate::fit::problem::{Base, Problem, targets};
 use crate::fit::state::{Part, State};

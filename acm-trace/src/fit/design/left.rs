@@ -3,19 +3,45 @@
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 
-use super::{Basis, Rows, below, rows};
+use super::correction::Basis;
+use super::inputs::{acting, record};
+use super::rows::{course, filtered, groups, kept, matrix, parted, rows, targets, unfiltered};
 use crate::fit::problem::Problem;
-use crate::fit::state::State;
+use crate::fit::state::{Part, State};
+use crate::fit::unrecorded::Unrecorded;
 
 /// Returns y − X β at the samples that are compared, N × M.
 pub fn left(problem: &Problem, state: &State, beta: &DMatrix<f64>) -> DMatrix<f64> {
     let basis = Basis::of(problem, state);
-    let of = |s: usize| {
-        let Rows { x, y } = rows(problem, state, basis.as_ref(), s, Some(beta));
-        Rows { x: DMatrix::zeros(y.nrows(), 0), y: y - x }
-    };
-    let parts: Vec<Rows> = (0..problem.series.len()).into_par_iter().map(of).collect();
-    below(&parts).1
+    let of = |s: usize| of_trial(problem, state, basis.as_ref(), s, beta);
+    let parts: Vec<DMatrix<f64>> = (0..problem.series.len()).into_par_iter().map(of).collect();
+    let rows = parts.iter().map(DMatrix::nrows).sum();
+    let (mut all, mut first) = (DMatrix::zeros(rows, problem.outputs()), 0);
+    for part in parts {
+        all.rows_mut(first, part.nrows()).copy_from(&part);
+        first += part.nrows();
+    }
+    all
+}
+
+fn of_trial(problem: &Problem, state: &State, basis: Option<&Basis>, s: usize, beta: &DMatrix<f64>) -> DMatrix<f64> {
+    let filters = acting(state, &problem.series[s], Part::Filter);
+    if filters.is_empty() {
+        return rows(problem, state, basis, s).less(beta);
+    }
+    let record = record(problem, state, s);
+    let of = |(placed, group)| course(problem, state, (s, &record), placed, group);
+    let additive = matrix(&groups(problem, state).map(of).collect::<Vec<_>>(), record.samples());
+    let nominal = unfiltered(problem, state, basis, s);
+    let (base, x) = parted(&nominal, record.samples(), problem.outputs());
+    let first = x.ncols();
+    let mut sum = x * beta.rows(0, first) + &additive * beta.rows(first, additive.ncols());
+    let mut base = base.into_owned();
+    filtered(&filters, &record, &mut sum);
+    filtered(&filters, &record, &mut base);
+    let (kept, unrecorded) = (kept(problem, s), Unrecorded::new(problem, state, s));
+    let y = targets(problem, state, s, base.select_rows(&kept), &unrecorded);
+    y - unrecorded.taken_out(sum.select_rows(&kept))
 }
 
 #[cfg(test)]
