@@ -10,8 +10,8 @@ use quick_cache::sync::Cache;
 
 use crate::effects::memory::{Derivative, Derivatives};
 
-/// Limit of kept derivatives of one record.
-const MOST: u64 = 1_000_000;
+/// Limit of kept derivatives of one record, 24 bytes each. Those of a longer record are not kept.
+const MOST: u64 = 400_000;
 
 /// Signals and windows that there is room for from the start: so few that they are kept in one piece, which has room for long ones.
 const EXPECTED: usize = 16;

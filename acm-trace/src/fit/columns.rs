@@ -7,7 +7,7 @@ use quick_cache::sync::Cache;
 
 use super::state::Placed;
 
-/// Limit of cached numbers of each kind.
+/// Limit of cached numbers of each kind. What is longer is not cached.
 const MOST: u64 = 10_000_000;
 
 /// Columns of a kind that there is room for from the start: so few that they are kept in one piece, which has room for long ones.

@@ -40,7 +40,7 @@ impl Rows {
     }
 
     /// Computes y − X β.
-    pub fn less(self, beta: &DMatrix<f64>) -> DMatrix<f64> {
+    pub fn less(&self, beta: &DMatrix<f64>) -> DMatrix<f64> {
         let (correction, count) = (self.correction(), self.additive.ncols());
         let first = correction.ncols();
         &self.y - correction * beta.rows(0, first) - &self.additive * beta.rows(first, count)
@@ -178,14 +178,11 @@ fn additive(
     placed: &Placed,
     group: usize,
 ) -> Arc<Vec<f64>> {
-    if !placed.acts_in(problem.series[s].calibrates) {
-        return Arc::new(vec![0.0; kept.len()]);
-    }
     let compute = || {
         let column = unit_column(placed, record, problem.outputs(), group);
         kept.iter().map(|&row| column[row]).collect()
     };
-    problem.columns.get(Key::group(s, placed, group, state.clock), compute)
+    where_it_acts(problem, (s, placed), kept.len(), Key::group(s, placed, group, state.clock), compute)
 }
 
 /// Returns the same behind filters.
@@ -196,16 +193,14 @@ fn additive_behind(
     (placed, group): (&Placed, usize),
     filters: &[&Placed],
 ) -> Arc<Vec<f64>> {
-    if !placed.acts_in(problem.series[s].calibrates) {
-        return Arc::new(vec![0.0; kept.len()]);
-    }
     let compute = || {
         let course = course(problem, state, (s, record), placed, group);
         let mut column = DMatrix::from_column_slice(record.samples(), 1, &course);
         filtered(filters, record, &mut column);
         kept.iter().map(|&row| column[row]).collect()
     };
-    problem.columns.get(Key::group(s, placed, group, state.clock).behind(filters), compute)
+    let key = Key::group(s, placed, group, state.clock).behind(filters);
+    where_it_acts(problem, (s, placed), kept.len(), key, compute)
 }
 
 /// Returns φ of a group at all samples of the record.
@@ -216,11 +211,24 @@ pub fn course(
     placed: &Placed,
     group: usize,
 ) -> Arc<Vec<f64>> {
-    if !placed.acts_in(problem.series[s].calibrates) {
-        return Arc::new(vec![0.0; record.samples()]);
-    }
     let compute = || unit_column(placed, record, problem.outputs(), group);
-    problem.columns.get(Key::group(s, placed, group, state.clock).throughout(), compute)
+    let key = Key::group(s, placed, group, state.clock).throughout();
+    where_it_acts(problem, (s, placed), record.samples(), key, compute)
+}
+
+/// Returns a cached column where an effect acts in a trial, else zeros.
+fn where_it_acts(
+    problem: &Problem,
+    (s, placed): (usize, &Placed),
+    rows: usize,
+    key: Key,
+    compute: impl FnOnce() -> Vec<f64>,
+) -> Arc<Vec<f64>> {
+    if placed.acts_in(problem.series[s].calibrates) {
+        problem.columns.get(key, compute)
+    } else {
+        Arc::new(vec![0.0; rows])
+    }
 }
 
 /// Returns the columns beside one another.
