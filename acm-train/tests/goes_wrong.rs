@@ -115,8 +115,7 @@ fn held_out_trials_far_outside_are_a_warning_with_both_ranges() {
         &[
             "warning: input `wind` goes from 2.",
             "in the held-out trials h2,",
-            "0.0",
-            "to 0.9546 in the training trials",
+            "1.365 · 10⁻⁵ to 0.9546 in the training trials",
         ],
     );
 }
