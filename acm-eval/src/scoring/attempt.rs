@@ -94,7 +94,7 @@ pub fn attempt_small_rig((kind, seed): (small_rigs::Kind, u64), options: &Option
 /// Returns the number of trials, truth and finding of a campaign.
 fn undeclared(task: &Task, options: &Options) -> Result<(usize, Truth, Finding), EvalError> {
     let made = made(task, generate)?;
-    let own = task.without_own.then(|| made.truth.names().into_iter().map(String::from)).into_iter().flatten();
+    let own = task.without_own.then(|| made.truth.forms().into_iter().map(String::from)).into_iter().flatten();
     let options = Options { without: options.without.iter().cloned().chain(own).collect(), ..options.clone() };
     let finding = traced(&made.campaign, &options, &name(task))?;
     Ok((made.campaign.trials.len(), made.truth, finding))

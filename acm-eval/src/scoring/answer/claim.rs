@@ -45,6 +45,13 @@ pub struct TrueCause {
 }
 
 impl TrueCause {
+    /// Returns it with further effects whose formula contains it as right names.
+    #[must_use]
+    pub fn contained_in(mut self, effects: &[String]) -> Self {
+        self.also.extend(effects.iter().map(|name| Alias { name: name.clone(), share: 1.0 }));
+        self
+    }
+
     /// Returns whether it has to be found: its absence shows, and no other effect in its place comes within one
     /// standard error.
     ///
@@ -238,6 +245,15 @@ mod tests {
         assert_eq!(names.wrong, ["coulomb_friction of q1"]);
         assert!((names.f1() - 2.0 / 4.0).abs() < 1e-12 && !names.is_exact());
         assert_eq!(rights(&answer), [false, true, true, true]);
+    }
+
+    /// Oracle: by hand. An effect that contains the cause is a right name for it, and no reason not to find it.
+    #[test]
+    fn an_effect_that_contains_the_cause_is_right() {
+        let lag = cause("actuator_lag", None, &[], true).contained_in(&["second_order_lag".into()]);
+        let is = |name: &str| lag.is(&claim(name, None, true, 1.0));
+        assert_eq!(["actuator_lag", "second_order_lag", "dead_time"].map(is), [true, true, false]);
+        assert!(lag.is_separable());
     }
 
     /// Oracle: by hand. The lag is named by its alias and not for sure; without that name, or with one too many, not all is named.

@@ -26,7 +26,7 @@ pub fn undeclared(truth: &Truth, finding: &Finding) -> Answer {
         signal: None,
         absence_shows: effect.separable,
         missed: effect.missed,
-        ..named(place, effect.name.as_deref())
+        ..named(place, effect.name.as_deref()).contained_in(&effect.contained_in)
     };
     let intervals = parameters(&truth.effects, &finding.effects).into_iter().map(|row| Interval {
         truth: row.truth,

@@ -212,6 +212,7 @@ impl Stage {
             effects.push(TrueEffect {
                 kind: draft.cause.name().into(),
                 name: draft.cause.library().map(Into::into),
+                contained_in: mechanism.contained_in().iter().copied().map(Into::into).collect(),
                 inside: draft.cause.library().is_some(),
                 since: draft.since,
                 trial: draft.trial.map(|trial| trial.to_string()),

@@ -80,6 +80,11 @@ pub trait Mechanism: Sync + Send {
         Vec::new()
     }
 
+    /// Returns further effects of the library whose formula becomes this one for some of their values.
+    fn contained_in(&self) -> &'static [&'static str] {
+        &[]
+    }
+
     /// Returns equation and numbers, for the reader of the truth.
     fn formula(&self) -> String;
 }

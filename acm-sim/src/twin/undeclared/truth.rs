@@ -58,6 +58,9 @@ pub struct TrueEffect {
     pub kind: String,
     /// The effect of the library that a finder should name; none outside of the library.
     pub name: Option<String>,
+    /// Further effects of the library whose formula becomes that of the mechanism for some of their values: right names, too.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub contained_in: Vec<String>,
     /// Whether the library has it.
     pub inside: bool,
     /// Onset of the mechanism.
@@ -121,5 +124,11 @@ impl Truth {
     /// Returns the names that a finder should give.
     pub fn names(&self) -> Vec<&str> {
         self.effects.iter().filter_map(|effect| effect.name.as_deref()).collect()
+    }
+
+    /// Returns all effects of the library that have the form of a mechanism.
+    pub fn forms(&self) -> Vec<&str> {
+        let further = self.effects.iter().flat_map(|effect| &effect.contained_in);
+        self.names().into_iter().chain(further.map(String::as_str)).collect()
     }
 }

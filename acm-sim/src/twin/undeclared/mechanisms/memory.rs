@@ -156,6 +156,11 @@ impl Mechanism for TwoPoles {
         vec![Parameter::new("tau", tau, "s", 0.15 * tau + 0.01)]
     }
 
+    fn contained_in(&self) -> &'static [&'static str] {
+        // ω² = 1/(τ₁ τ₂) and 2 ζ/ω = τ₁ + τ₂, with ζ = 1.34.
+        &["second_order_lag"]
+    }
+
     fn formula(&self) -> String {
         format!("two poles, {:.4} s and {:.4} s", self.slow, FAST * self.slow)
     }
@@ -367,6 +372,22 @@ mod tests {
             let (course, moved) = after(&*mechanism, |time| 0.4 * time);
             let trail = course.at(&course.actuators[0], 30.0) - course.at(&moved, 30.0);
             assert!((trail - 0.4 * late).abs() < 1e-9, "{trail}");
+        }
+    }
+
+    /// Oracle: the step response of y″/ω² + 2ζy′/ω + y = u with 1/ω² = 0.2τ² and 2ζ/ω = 1.2τ, in closed form.
+    #[test]
+    fn two_poles_are_a_second_order_lag() {
+        let poles = TwoPoles { slow: 0.5 };
+        assert_eq!(poles.contained_in(), ["second_order_lag"]);
+        let rate = 1.0 / (0.2f64 * 0.25).sqrt();
+        let damping = 0.6 * rate / 2.0;
+        let root = (damping * damping - 1.0).sqrt();
+        let (slow, fast) = (rate * (root - damping), -rate * (root + damping));
+        let (course, moved) = after(&poles, |time| if time < 0.0 { 0.0 } else { 1.0 });
+        for time in [0.2, 0.5, 1.5] {
+            let expected = 1.0 - (fast * (slow * time).exp() - slow * (fast * time).exp()) / (fast - slow);
+            assert!((course.at(&moved, time) - expected).abs() < 0.02, "{time}");
         }
     }
 
