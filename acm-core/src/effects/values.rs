@@ -53,6 +53,12 @@ impl<'a> Values<'a> {
         if self.varying.is_some() { self.specs[j].along()[1] } else { self.base[j] }
     }
 
+    /// Whether parameter `j` is zero at every sample.
+    pub fn is_zero(&self, j: usize) -> bool {
+        let rests = |Varying { slope, bow, .. }: Varying| slope[j] == 0.0 && bow.is_none_or(|(bow, _)| bow[j] == 0.0);
+        self.base[j] == 0.0 && self.varying.is_none_or(rests)
+    }
+
     /// Value of parameter `j` at sample `t`.
     #[inline]
     pub fn at(&self, j: usize, t: usize) -> f64 {
@@ -67,5 +73,21 @@ impl<'a> Values<'a> {
         let [lower, upper] = self.specs[j].along();
         let bow = bow.map_or(0.0, |(bow, [a, b])| bow[j] * (context - a) * (context - b));
         (self.base[j] + slope[j] * context + bow).max(lower).min(upper)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Oracle: by hand. A value that is zero without the signal need not be zero with it.
+    #[test]
+    fn zero_at_every_sample() {
+        let (base, slope, context) = ([0.0, 0.0, 2.0], [0.0, 1.0, 0.0], [0.0, 3.0]);
+        let zeros = |values: Values| [0, 1, 2].map(|j| values.is_zero(j));
+        assert_eq!(zeros(Values::constant(&[], &base)), [true, true, false]);
+        let straight = Values::varying(&[], &base, &slope, &context);
+        assert_eq!(zeros(straight), [true, false, false]);
+        assert_eq!(zeros(straight.bowed(&[1.0, 0.0, 0.0], [0.0, 3.0])), [false, false, false]);
     }
 }

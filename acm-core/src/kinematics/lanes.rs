@@ -8,7 +8,7 @@
 //!
 //! [`pulp`] finds out at run time which one it is. Every place is computed as [`Real`] says, so the width changes no bit.
 
-use std::ops::{Add, Mul, Neg, Sub};
+use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use pulp::Simd;
 
@@ -134,6 +134,15 @@ impl<S: Simd> Mul for Lanes<S> {
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
         self.with(self.simd.mul_f64s(self.value, other.value))
+    }
+}
+
+impl<S: Simd> Div for Lanes<S> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn div(self, other: Self) -> Self {
+        self.with(self.simd.div_f64s(self.value, other.value))
     }
 }
 

@@ -7,7 +7,7 @@
 //! Both carry out the same operations in the same order. Products are never fused with sums, so that one sample alone and
 //! the same sample in company give the same bits, on every processor.
 
-use std::ops::{Add, Mul, Neg, Sub};
+use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// Arithmetic that the formulas need: scalars and vectors of samples.
 pub(crate) trait Real:
@@ -15,6 +15,7 @@ pub(crate) trait Real:
     + Add<Output = Self>
     + Sub<Output = Self>
     + Mul<Output = Self>
+    + Div<Output = Self>
     + Neg<Output = Self>
     + Add<f64, Output = Self>
     + Mul<f64, Output = Self>

@@ -22,6 +22,10 @@
 //! Linear in the number of samples: sums of powers run along blocks of one h, each about its own middle, so that they lose
 //! no more than three digits.
 
+mod windows;
+
+use windows::{POWERS, PRODUCTS, Sums, TOGETHER, Windows, parabola};
+
 use super::{State, take_room};
 use crate::slope::slope_at;
 
@@ -36,17 +40,6 @@ const NEAR: usize = 8;
 
 /// Samples per second up to which there is room from the start.
 const FASTEST: f64 = 1000.0;
-
-/// Powers of time that are summed up, 0 to 12, and those times the signal, 0 to 8.
-const POWERS: usize = 13;
-const PRODUCTS: usize = 9;
-
-/// What shrinks τ³ and τ⁴ of the quartic, as a share of the samples: 2 and 7 % where they fill the window, and all the way to the
-/// parabola where they do not tell them.
-const RIDGE: f64 = 1e-4;
-
-/// Sums of powers, and of those times the signal.
-type Sums = [f64; POWERS + PRODUCTS];
 
 /// What the polynomial has at the sample.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -81,6 +74,14 @@ struct Block {
     from: usize,
     /// The window of the last sample that was asked for.
     window: (usize, usize),
+}
+
+/// Samples whose windows are fitted together.
+#[derive(Debug, Default)]
+struct Waiting {
+    windows: Windows,
+    /// The samples, as they are counted in all that is kept, and in what is asked for.
+    samples: [(usize, usize); TOGETHER],
 }
 
 impl Clone for Derivatives {
@@ -122,33 +123,53 @@ impl Derivatives {
         self.time.extend_from_slice(time);
         self.x.extend_from_slice(x);
         self.found.clear();
+        let mut waiting = Waiting::default();
         for t in first..self.time.len() {
             let narrowest = narrowest(&self.time, t);
             // Blocks begin by time alone, whatever is known of later samples.
-            let block = (window > 0.0).then(|| self.block_of(t, window));
-            let found = match block.filter(|_| narrowest > 0.0 && window >= narrowest) {
-                Some(block) => self.fitted(t, window, block, narrowest),
-                None => near(&self.time, &self.x, t, narrowest, window.max(0.0)),
-            };
-            let line = || Derivative { value: self.x[t], rate: slope_at(&self.time, &self.x, t), acceleration: 0.0 };
-            self.found.push(found.unwrap_or_else(line));
+            let block = (window > 0.0).then(|| self.block_of(t, window, &mut waiting));
+            self.found.push(Derivative::default());
+            match block.filter(|_| narrowest > 0.0 && window >= narrowest) {
+                Some(block) => {
+                    let (sums, centre) = self.sums_of(t, window, block);
+                    let share = if self.is_quartic { (window / narrowest - 1.0).min(1.0) } else { 0.0 };
+                    waiting.samples[waiting.windows.len()] = (t, t - first);
+                    waiting.windows.push(&sums, centre, share);
+                    if waiting.windows.is_full() {
+                        self.fit(&mut waiting, window);
+                    }
+                }
+                None => {
+                    let near = near(&self.time, &self.x, t, narrowest, window.max(0.0));
+                    self.found[t - first] = near.unwrap_or_else(|| self.line(t));
+                }
+            }
         }
+        self.fit(&mut waiting, window);
         self.forget();
         &self.found
     }
 
+    /// What is known where a window holds too little.
+    fn line(&self, t: usize) -> Derivative {
+        Derivative { value: self.x[t], rate: slope_at(&self.time, &self.x, t), acceleration: 0.0 }
+    }
+
     /// The block of sample `t`, which begins with it where the last one has ended.
-    fn block_of(&mut self, t: usize, h: f64) -> Block {
+    fn block_of(&mut self, t: usize, h: f64, waiting: &mut Waiting) -> Block {
         let block = match self.block {
             Some(block) if self.time[t] < block.start + h => block,
-            _ => self.begin(t, h),
+            _ => {
+                self.fit(waiting, h);
+                self.begin(t, h)
+            }
         };
         self.block = Some(block);
         block
     }
 
-    /// The polynomial of the window of sample `t`; none where it holds too little.
-    fn fitted(&mut self, t: usize, h: f64, mut block: Block, narrowest: f64) -> Option<Derivative> {
+    /// The sums over the window of sample `t`, and the time from the middle of the block to the sample, in windows.
+    fn sums_of(&mut self, t: usize, h: f64, mut block: Block) -> (Sums, f64) {
         self.sum_up(&block, h);
         let (now, (mut low, mut high)) = (self.time[t], block.window);
         while self.time[low] <= now - h {
@@ -160,14 +181,22 @@ impl Derivatives {
         block.window = (low, high);
         self.block = Some(block);
         let (before, until) = (&self.sums[low - block.from], &self.sums[high - block.from]);
-        let sums: Sums = std::array::from_fn(|k| until[k] - before[k]);
-        let moments = Moments::new(&sums, (now - block.start) / h - 0.5);
-        let share = if self.is_quartic { (h / narrowest - 1.0).min(1.0) } else { 0.0 };
-        moments.fitted(share).map(|[value, rate, bend]| Derivative {
-            value: block.x + value,
-            rate: rate / h,
-            acceleration: 2.0 * bend / (h * h),
-        })
+        (std::array::from_fn(|k| until[k] - before[k]), (now - block.start) / h - 0.5)
+    }
+
+    /// Fits what waits, all of one block.
+    fn fit(&mut self, waiting: &mut Waiting, h: f64) {
+        let Some(block) = self.block else { return };
+        let fitted = waiting.windows.fitted();
+        for (fitted, (t, k)) in fitted.into_iter().zip(waiting.samples) {
+            let found = fitted.map(|[value, rate, bend]| Derivative {
+                value: block.x + value,
+                rate: rate / h,
+                acceleration: 2.0 * bend / (h * h),
+            });
+            self.found[k] = found.unwrap_or_else(|| self.line(t));
+        }
+        waiting.windows.clear();
     }
 
     /// A new block whose first sample is `t`.
@@ -222,86 +251,6 @@ impl Derivatives {
     }
 }
 
-/// Weighted sums about a sample, in windows.
-struct Moments {
-    /// Of τ⁰ … τ⁸.
-    times: [f64; POWERS - 4],
-    /// Of x τ⁰ … x τ⁴.
-    products: [f64; PRODUCTS - 4],
-}
-
-impl Moments {
-    /// Of the sums about the middle of a block; `centre` is the time from there to the sample.
-    fn new(sums: &Sums, centre: f64) -> Self {
-        let (powers, products) = sums.split_at(POWERS);
-        let (mut powers, mut products): ([f64; POWERS], [f64; PRODUCTS]) =
-            (std::array::from_fn(|k| powers[k]), std::array::from_fn(|k| products[k]));
-        shift(&mut powers, centre);
-        shift(&mut products, centre);
-        let weighted = |of: &[f64], k: usize| of[k] - 2.0 * of[k + 2] + of[k + 4];
-        Self {
-            times: std::array::from_fn(|k| weighted(&powers, k)),
-            products: std::array::from_fn(|k| weighted(&products, k)),
-        }
-    }
-
-    /// c_0, c_1 and c_2, of the quartic by a share and else of the parabola; none where the samples do not tell them.
-    fn fitted(&self, share: f64) -> Option<[f64; 3]> {
-        let (t, y) = (&self.times, &self.products);
-        let parabola = parabola(&[t[0], t[1], t[2], t[3], t[4], y[0], y[1], y[2]])?;
-        let quartic = if share > 0.0 { self.quartic() } else { None };
-        Some(quartic.map_or(parabola, |q| std::array::from_fn(|k| parabola[k] + share * (q[k] - parabola[k]))))
-    }
-
-    fn quartic(&self) -> Option<[f64; 3]> {
-        let ridge = |k: usize| if k > 2 { RIDGE * self.times[0] } else { 0.0 };
-        let matrix =
-            std::array::from_fn(|i| std::array::from_fn(|j| self.times[i + j] + if i == j { ridge(i) } else { 0.0 }));
-        first_of_solution(matrix, self.products)
-    }
-}
-
-/// The first three of five unknowns; none where the matrix is not positive definite. The last ones are eliminated first, and sizes are
-/// known when it is compiled: it runs at every sample.
-fn first_of_solution(mut a: [[f64; 5]; 5], mut b: [f64; 5]) -> Option<[f64; 3]> {
-    for k in (1..5).rev() {
-        for i in 0..k {
-            let share = a[k][i] / a[k][k];
-            for j in 0..=i {
-                a[i][j] -= share * a[k][j];
-            }
-            b[i] -= share * b[k];
-        }
-    }
-    if !(0..5).all(|k| a[k][k] > 0.0) {
-        return None;
-    }
-    let first = b[0] / a[0][0];
-    let second = (b[1] - a[1][0] * first) / a[1][1];
-    Some([first, second, (b[2] - a[2][0] * first - a[2][1] * second) / a[2][2]])
-}
-
-/// Moments about 0 become moments about `centre`: Horner's scheme of each power of (s − centre).
-fn shift(moments: &mut [f64], centre: f64) {
-    for k in 1..moments.len() {
-        for j in (k..moments.len()).rev() {
-            moments[j] -= centre * moments[j - 1];
-        }
-    }
-}
-
-/// c_0, c_1 and c_2 by normal equations; none where the samples do not tell them.
-fn parabola(s: &[f64; 8]) -> Option<[f64; 3]> {
-    // Without the mean: [t2, t3; t3, t4] (b, c) = (y1, y2).
-    let mean = [s[1] / s[0], s[2] / s[0]];
-    let (t2, t3, t4) = (s[2] - mean[0] * s[1], s[3] - mean[1] * s[1], s[4] - mean[1] * s[2]);
-    let (y1, y2) = (s[6] - mean[0] * s[5], s[7] - mean[1] * s[5]);
-    let determinant = t2 * t4 - t3 * t3;
-    let told = s[0] > 0.0 && determinant > 1e-9 * t2 * t4;
-    let [b, c] = [(t4 * y1 - t3 * y2) / determinant, (t2 * y2 - t3 * y1) / determinant];
-    told.then(|| [s[5] / s[0] - b * mean[0] - c * mean[1], b, c])
-}
-
 /// The narrowest window of sample `t`, s.
 fn narrowest(time: &[f64], t: usize) -> f64 {
     let first = t.saturating_sub(FEWEST / 2).min(time.len().saturating_sub(FEWEST));
@@ -318,7 +267,8 @@ fn near(time: &[f64], x: &[f64], t: usize, h: f64, asked: f64) -> Option<Derivat
         let powers = [1.0, u, u * u, u * u * u, u * u * u * u, y, y * u, y * u * u];
         s.iter_mut().zip(powers).for_each(|(s, power)| *s += weight * power);
     }
-    parabola(&s).map(|[value, rate, bend]| Derivative {
+    let ([value, rate, bend], told) = parabola(&s);
+    told.iter().all(|told| *told > 0.0).then(|| Derivative {
         value: x[t] + (asked / h).min(1.0) * value,
         rate: rate / h,
         acceleration: 2.0 * bend / (h * h),

@@ -96,10 +96,12 @@ impl Effect for OutputPrandtlIshlinskii {
         let outputs = columns.len();
         let plays = memory.states::<[Play; ELEMENTS]>(1);
         let Some(plays) = plays.first_mut() else { return };
-        for (t, s) in signal.iter().enumerate() {
-            let radius = values.at(ELEMENTS * outputs, t);
-            let start = values.at(ELEMENTS * outputs + 1, t);
-            for (i, play) in plays.iter_mut().enumerate() {
+        // A regression asks for one element after the other.
+        let acts = |i: usize| (0..outputs).any(|m| !values.is_zero(i * outputs + m));
+        for (i, play) in plays.iter_mut().enumerate().filter(|(i, _)| acts(*i)) {
+            for (t, s) in signal.iter().enumerate() {
+                let radius = values.at(ELEMENTS * outputs, t);
+                let start = values.at(ELEMENTS * outputs + 1, t);
                 let travel = SHARES[i] * radius;
                 play.begin(s - start * travel);
                 let strain = s - play.step(*s, travel);
