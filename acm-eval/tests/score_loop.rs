@@ -41,7 +41,10 @@ fn answer(truth: &[&str], found: &[&str], verdict: Verdict) -> Answer {
     Answer {
         kind: "creep".into(),
         causes: truth.iter().map(cause).collect(),
-        claims: found.iter().map(|name| Claim { name: (*name).into(), signal: None, sure, share: 0.97 }).collect(),
+        claims: found
+            .iter()
+            .map(|name| Claim { name: (*name).into(), signal: None, sure, share: 0.97, doubts: vec![] })
+            .collect(),
         intervals: vec![],
         removed: None,
         over_best: Some(if sure { 0.2 } else { 1.005 }),

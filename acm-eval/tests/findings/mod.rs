@@ -604,6 +604,7 @@ fn effect(name: &str, site: Site, parameters: Vec<FoundParameter>) -> FoundEffec
         size: 8.3,
         removes: 0.0,
         confidence: Confidence { level: Level::Sure, share: 0.97 },
+        doubts: vec![],
         follows: None,
         equivalent: vec![name.into()],
         alternatives: vec![

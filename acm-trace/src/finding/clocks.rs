@@ -66,6 +66,7 @@ mod tests {
             size: 1.0,
             removes: 0.0,
             confidence: Confidence { level: Level::Sure, share: 1.0 },
+            doubts: vec![],
             follows: None,
             equivalent: vec![],
             alternatives: vec![],

@@ -8,7 +8,7 @@ use crate::diagnose::followed::followed;
 use crate::diagnose::remainder::Remainder;
 use crate::diagnose::residuals::{LeftOut, changes, size};
 use crate::finding::sentence;
-use crate::finding::{Alternative, Confidence, FoundEffect, FoundParameter, Level, MinorEffect, Probe, Verdict};
+use crate::finding::{Alternative, Confidence, Doubt, FoundEffect, FoundParameter, Level, MinorEffect, Probe, Verdict};
 use crate::fit::interval::{Intervals, intervals};
 use crate::prepared::Prepared;
 use crate::search::candidates::CLOCK;
@@ -79,8 +79,7 @@ fn of_its_form(
     if !is_followed(&probe, effect.removes) {
         return effect;
     }
-    let confidence = Confidence { level: Level::Likely, ..effect.confidence };
-    FoundEffect { follows: Some(probe.rms), confidence, ..effect }
+    FoundEffect { follows: Some(probe.rms), ..doubted(effect, Doubt::Followed) }
 }
 
 /// Returns whether more follows an effect than chance and its part of what it removes explain.
@@ -91,9 +90,16 @@ fn is_followed(probe: &Probe, removes: f64) -> bool {
 /// Returns the effects with the confidence that the whole allows: none is sure where the verdict is unknown structure, or the model predicts
 /// otherwise than the search did.
 pub fn downgraded(effects: Vec<FoundEffect>, verdict: Verdict, agrees: bool) -> Vec<FoundEffect> {
-    let most = if verdict == Verdict::UnknownStructure || !agrees { Level::Likely } else { Level::Sure };
-    let level = |effect: &FoundEffect| Confidence { level: effect.confidence.level.min(most), ..effect.confidence };
-    effects.into_iter().map(|effect| FoundEffect { confidence: level(&effect), ..effect }).collect()
+    let unknown = (verdict == Verdict::UnknownStructure).then_some(Doubt::UnknownStructure);
+    let doubts = || unknown.into_iter().chain((!agrees).then_some(Doubt::ModelDisagrees));
+    effects.into_iter().map(|effect| doubts().fold(effect, doubted)).collect()
+}
+
+/// Returns an effect with one more doubt: it is likely at most.
+fn doubted(mut effect: FoundEffect, doubt: Doubt) -> FoundEffect {
+    effect.doubts.push(doubt);
+    effect.confidence.level = effect.confidence.level.min(Level::Likely);
+    effect
 }
 
 /// Returns the intervals of the last set, widened to those of the sets that predict as well or a little better.
@@ -126,10 +132,13 @@ fn effect(
         }
     }
     let parameters = parameters(traced, bounds, i, rig);
-    let in_doubt = equivalent.len() > 1
-        || parameters.iter().any(|parameter| parameter.at_bound)
-        || may_be_silent(instance, &parameters)
-        || is_taken_back(size, traced.last.effects.len(), traced.mean_squares()[0].sqrt());
+    let reasons = [
+        (Doubt::Equivalent, equivalent.len() > 1),
+        (Doubt::AtBound, parameters.iter().any(|parameter| parameter.at_bound)),
+        (Doubt::MayBeZero, may_be_silent(instance, &parameters)),
+        (Doubt::TakenBack, is_taken_back(size, traced.last.effects.len(), traced.mean_squares()[0].sqrt())),
+    ];
+    let doubts: Vec<Doubt> = reasons.into_iter().filter(|(_, holds)| *holds).map(|(doubt, _)| doubt).collect();
     FoundEffect {
         name: name.into(),
         meaning: instance.effect().meaning().into(),
@@ -138,7 +147,8 @@ fn effect(
         parameters,
         size,
         removes: (chosen.rise.max(0.0) / traced.problem.rows().max(1) as f64).sqrt(),
-        confidence: Confidence { level: level(share, in_doubt, criteria), share },
+        confidence: Confidence { level: level(share, !doubts.is_empty(), criteria), share },
+        doubts,
         follows: None,
         equivalent,
         alternatives: chosen
@@ -171,8 +181,7 @@ fn is_taken_back(size: f64, effects: usize, error: f64) -> bool {
     effects > 1 && size > TAKEN_BACK * error
 }
 
-/// Returns the confidence in words. In doubt is an effect that another one equals, that rests on a bound, that others take back, or that
-/// may be silent.
+/// Returns the confidence in words.
 fn level(share: f64, in_doubt: bool, criteria: &Criteria) -> Level {
     match share {
         share if share >= criteria.sure && !in_doubt => Level::Sure,
@@ -302,6 +311,7 @@ mod tests {
             size: 1.0,
             removes: 1.0,
             confidence: Confidence { level, share: 1.0 },
+            doubts: vec![],
             follows: None,
             equivalent: vec![],
             alternatives: vec![],
@@ -312,6 +322,8 @@ mod tests {
             let effects = [Level::Sure, Level::Likely, Level::Possible].map(found).to_vec();
             downgraded(effects, verdict, agrees).iter().map(|effect| effect.confidence.level).collect::<Vec<_>>()
         };
+        let both = downgraded(vec![found(Level::Sure)], Verdict::UnknownStructure, false);
+        assert_eq!(both[0].doubts, [Doubt::UnknownStructure, Doubt::ModelDisagrees]);
         assert_eq!(of(Verdict::Partial, true), [Level::Sure, Level::Likely, Level::Possible]);
         assert_eq!(of(Verdict::UnknownStructure, true), [Level::Likely, Level::Likely, Level::Possible]);
         assert_eq!(of(Verdict::Named, false), [Level::Likely, Level::Likely, Level::Possible]);

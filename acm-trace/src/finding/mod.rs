@@ -24,7 +24,7 @@ pub mod verdict;
 pub use records::before::{BeforeForm, BeforeTrial};
 pub use records::data::Data;
 pub use records::drawn::{CarrierFigure, Figures, Trace, TrialErrors};
-pub use records::effects::{Alternative, Confidence, FoundEffect, FoundParameter, Level, MinorEffect};
+pub use records::effects::{Alternative, Confidence, Doubt, FoundEffect, FoundParameter, Level, MinorEffect};
 pub use records::errors::{Baselines, Confirmation, Errors, Estimate};
 pub use records::formula::{Symbolic, SymbolicTerm};
 pub use records::left::{Autocorrelation, Event, Left, NotTried, Probe};

@@ -1,7 +1,7 @@
 //! Confirmation by held-out trials and confidence of effects, in words.
 
 use acm_core::display::{percent, significant, with_symbol};
-use acm_trace::finding::{Confirmation, Finding, FoundEffect, Level};
+use acm_trace::finding::{Confirmation, Doubt, Finding, FoundEffect, Level};
 
 use crate::closed_loop::words::effect_words;
 
@@ -25,12 +25,20 @@ pub fn words(finding: &Finding) -> (&'static str, &'static str) {
     }
 }
 
-/// Writes `sure: chosen again in 97 % of resamples`, and that what is left follows the effect where that puts its name in doubt.
+/// Writes `likely: chosen again in 97 % of resamples; not sure, since another effect predicts as well`.
 pub fn confidence(effect: &FoundEffect, unit: &str) -> String {
-    let follows = |rms| {
-        format!("; {} of what is left follows it: another of its kind may act", with_symbol(&significant(rms, 2), unit))
+    let reason = |doubt: &Doubt| match (doubt, effect.follows) {
+        (Doubt::Followed, Some(rms)) => {
+            format!(
+                "{} of what is left follows it: another of its kind may act",
+                with_symbol(&significant(rms, 2), unit)
+            )
+        }
+        _ => doubt.words().to_string(),
     };
-    let doubt = effect.follows.map_or(String::new(), follows);
+    let reasons: Vec<String> = effect.doubts.iter().map(reason).collect();
+    let is_told = effect.confidence.level == Level::Likely && !reasons.is_empty();
+    let doubt = if is_told { format!("; not sure, since {}", reasons.join(", and ")) } else { String::new() };
     format!(
         "{}: chosen again in {} of resamples{doubt}",
         level(effect.confidence.level),

@@ -1,5 +1,6 @@
 //! Claims of a finding and the truth, independent of their file formats.
 
+use acm_trace::finding::Doubt;
 use serde::{Deserialize, Deserializer, Serialize};
 
 use super::matching::matching;
@@ -16,6 +17,9 @@ pub struct Claim {
     pub sure: bool,
     /// Share of resamples in which it is chosen again.
     pub share: f64,
+    /// Why it is not sure.
+    #[serde(default)]
+    pub doubts: Vec<Doubt>,
 }
 
 /// An effect that the data cannot distinguish from the true one, by the table of aliases.
@@ -200,7 +204,7 @@ fn written(claim: &Claim) -> String {
 /// Returns a claim, for tests.
 #[cfg(test)]
 pub fn claim(name: &str, signal: Option<&str>, sure: bool, share: f64) -> Claim {
-    Claim { name: name.into(), signal: signal.map(Into::into), sure, share }
+    Claim { name: name.into(), signal: signal.map(Into::into), sure, share, doubts: vec![] }
 }
 
 /// Returns a cause whose absence costs ten standard errors, for tests; the effects `also` are indistinguishable from

@@ -15,6 +15,7 @@ pub fn claims(finding: &Finding) -> Vec<Claim> {
         signal: effect.carrier.clone(),
         sure: effect.confidence.level == Level::Sure,
         share: effect.confidence.share,
+        doubts: effect.doubts.clone(),
     };
     finding.effects.iter().map(claim).collect()
 }

@@ -162,6 +162,10 @@ fn names(figures: &Figures) -> Vec<(String, String)> {
     ];
     let bins = figures.reliability.iter().filter(|bin| bin.right.of > 0);
     rows.extend(bins.map(reliable));
+    let doubted = figures.doubted.iter();
+    rows.extend(
+        doubted.map(|(doubt, share)| (format!("right, and not sure, since {}", doubt.words()), share.to_string())),
+    );
     let wrong = figures.false_names.iter().filter(|(_, share)| share.count > 0);
     rows.extend(wrong.map(|(kind, share)| (format!("{kind}: with a wrong sure name"), share.to_string())));
     rows

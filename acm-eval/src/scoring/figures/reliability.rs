@@ -6,6 +6,9 @@
 //!
 //! DeGroot & Fienberg (1983), The Statistician 32; Wilson (1927), JASA 22(158).
 
+use std::collections::BTreeMap;
+
+use acm_trace::finding::Doubt;
 use serde::Serialize;
 
 use crate::scoring::answer::{Answer, rights};
@@ -42,6 +45,22 @@ pub fn reliability(answers: &[Answer]) -> Vec<Bin> {
     BINS.windows(2).map(bin).collect()
 }
 
+/// Returns what the doubts cost: of the claims in the last bin that are not sure, those that are right, by each reason.
+pub fn doubted(answers: &[Answer]) -> BTreeMap<Doubt, Share> {
+    let mut by_doubt = BTreeMap::<Doubt, Share>::new();
+    for answer in answers {
+        for (claim, right) in answer.claims.iter().zip(rights(answer)) {
+            let is_chosen = claim.share >= BINS[BINS.len() - 2];
+            for doubt in claim.doubts.iter().filter(|_| is_chosen && !claim.sure) {
+                let share = by_doubt.entry(*doubt).or_default();
+                share.of += 1;
+                share.count += usize::from(right);
+            }
+        }
+    }
+    by_doubt
+}
+
 /// Standard normal quantile of 97.5 %.
 const Z: f64 = 1.959_964;
 
@@ -57,6 +76,25 @@ pub fn wilson(share: Share) -> Option<[f64; 2]> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scoring::answer::{answer, cause, claim};
+
+    /// Oracle: by hand. A claim in two doubts counts for each, one that is rarely chosen for none.
+    #[test]
+    fn doubts_are_held_against_the_truth() {
+        let doubted_claim = |name: &str, share: f64, doubts: &[Doubt]| {
+            let mut claim = claim(name, None, false, share);
+            claim.doubts = doubts.to_vec();
+            claim
+        };
+        let claims = vec![
+            doubted_claim("creep", 0.97, &[Doubt::Equivalent, Doubt::AtBound]),
+            doubted_claim("dead_time", 1.0, &[Doubt::Equivalent]),
+            doubted_claim("scale", 0.6, &[Doubt::Equivalent]),
+        ];
+        let found = doubted(&[answer("several2", vec![cause("creep", None, &[], true)], claims)]);
+        let expected = [(Doubt::Equivalent, Share { count: 1, of: 2 }), (Doubt::AtBound, Share { count: 1, of: 1 })];
+        assert_eq!(found, BTreeMap::from(expected));
+    }
 
     /// Oracle: Agresti & Coull (1998), The American Statistician 52(2): no success in ten gives (0, 0.278); and the interval of 8 in
     /// 10 as statsmodels gives it.

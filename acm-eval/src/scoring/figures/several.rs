@@ -9,16 +9,17 @@
 //! | F1 of names | of each campaign, 2·TP/(2·TP + FP + FN); mean |
 //! | F | share of the removable error that is gone, of each campaign; quantiles. Not removable is what no recording tells |
 //! | reliability | of claims whose share lies in a bin, those that are right, beside their mean share |
+//! | doubts | of claims that are chosen again nearly always and not sure, those that are right, by the reason |
 //! | coverage | intervals that hold the true value, or come within the truth's tolerance |
 //! | width | of an interval over the narrowest honest one; median |
 
 use std::collections::BTreeMap;
 
 use acm_sim::twin::undeclared::Design;
-use acm_trace::finding::Verdict;
+use acm_trace::finding::{Doubt, Verdict};
 use serde::{Deserialize, Serialize};
 
-use super::reliability::{Bin, reliability};
+use super::reliability::{Bin, doubted, reliability};
 use crate::scoring::answer::{Answer, Interval, Names, is_named};
 use crate::scoring::share::{Share, mean, quantile};
 
@@ -72,6 +73,8 @@ pub struct Figures {
     pub removed_almost_all: Share,
     /// Bins of reliability.
     pub reliability: Vec<Bin>,
+    /// Claims that are chosen again in 95 % of resamples and not sure: those that are right, by the reason.
+    pub doubted: BTreeMap<Doubt, Share>,
     /// Intervals that hold the true value.
     pub covered: Share,
     /// Intervals that hold the true value, of answers whose names are exact.
@@ -110,6 +113,7 @@ impl Figures {
             removed: [0.0, 0.05, 0.1, 0.25, 0.5].map(|share| quantile(&removed, share)),
             removed_almost_all: Share::of(&removed, |share| **share >= 0.95),
             reliability: reliability(answers),
+            doubted: doubted(answers),
             covered: Share::of(intervals(), |one| covers(one)),
             covered_where_exact: Share::of(exact.flat_map(|answer| &answer.intervals), |one| covers(one)),
             covered_within_tolerance: Share::of(intervals(), |one| {

@@ -24,6 +24,9 @@ pub struct FoundEffect {
     pub removes: f64,
     /// Confidence in the name.
     pub confidence: Confidence,
+    /// Why the name is not sure, however often it is chosen again.
+    #[serde(default)]
+    pub doubts: Vec<Doubt>,
     /// Root mean square of the part of what is left that follows the effect, in the unit of the errors; none where that is too little to
     /// put the name in doubt, or it is in doubt for another reason.
     #[serde(default)]
@@ -106,6 +109,41 @@ pub struct Confidence {
     pub share: f64,
 }
 
+/// Reason why an effect is not sure.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Doubt {
+    /// Another effect predicts as well.
+    Equivalent,
+    /// A value rests on a bound that the effect admits.
+    AtBound,
+    /// The intervals of all its sizes hold zero.
+    MayBeZero,
+    /// Other effects take back most of what it does to the outputs.
+    TakenBack,
+    /// More of what is left follows it than chance explains: another effect of its kind may act.
+    Followed,
+    /// The verdict is unknown structure.
+    UnknownStructure,
+    /// The saved model predicts otherwise than the search did.
+    ModelDisagrees,
+}
+
+impl Doubt {
+    /// Returns it in words.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Equivalent => "another effect predicts as well",
+            Self::AtBound => "a value rests on its bound",
+            Self::MayBeZero => "the intervals of its sizes hold zero",
+            Self::TakenBack => "other effects take back most of what it does",
+            Self::Followed => "what is left follows it: another of its kind may act",
+            Self::UnknownStructure => "a part of what is missing has an unknown structure",
+            Self::ModelDisagrees => "the saved model predicts otherwise than the search did",
+        }
+    }
+}
+
 /// Confidence in words.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -114,9 +152,7 @@ pub enum Level {
     Possible,
     /// Chosen again in half of the resamples or more.
     Likely,
-    /// Chosen again in 95 % or more. No other effect predicts as well, no value rests on a bound, the interval of one of its sizes at
-    /// least leaves out zero, others do not take most of it back, what is left does not follow it, the saved model predicts as the search
-    /// did, and the verdict is not unknown structure.
+    /// Chosen again in 95 % or more, and there is no [`Doubt`].
     Sure,
 }
 
