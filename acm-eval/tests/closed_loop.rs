@@ -7,7 +7,7 @@ use acm_eval::closed_loop::figures::{self, matrix};
 use acm_eval::closed_loop::page::beside;
 use acm_eval::closed_loop::{page, separability_page, separability_summary, summary};
 use acm_trace::finding::{
-    Baselines, Confirmation, Errors, Estimate, Finding, Level, Probe, Separability, Verdict, sentence::sentence,
+    Baselines, Confirmation, Doubt, Errors, Estimate, Finding, Level, Probe, Separability, Verdict, sentence::sentence,
     title::parameter_title,
 };
 
@@ -68,6 +68,19 @@ fn the_svg_holds_what_was_counted() {
     let cells = matrix::draw(&findings::separability()).unwrap().svg("matrix", matrix::QUESTION, "fixture");
     assert_eq!(cells.matches("<rect").count(), 1 + 9 * 9 + 9, "paper, pairs, and recalibration");
     assert!(cells.contains(">97<") || cells.contains(">94<"));
+}
+
+#[test]
+fn a_page_says_why_a_name_is_not_sure() {
+    let mut finding = findings::form_imperfect();
+    let effect = &mut finding.effects[0];
+    effect.confidence.level = Level::Likely;
+    effect.doubts = vec![Doubt::Equivalent, Doubt::Followed];
+    effect.follows = Some(0.0006);
+    let doubts = "likely: chosen again in 97 % of resamples; not sure, since another effect predicts as well, and 0.60 mm of what is left \
+                  follows it: another of its kind may act";
+    let said = words(&page(&finding));
+    assert!(said.contains(doubts), "{said}");
 }
 
 #[test]

@@ -28,12 +28,7 @@ pub fn words(finding: &Finding) -> (&'static str, &'static str) {
 /// Writes `likely: chosen again in 97 % of resamples; not sure, since another effect predicts as well`.
 pub fn confidence(effect: &FoundEffect, unit: &str) -> String {
     let reason = |doubt: &Doubt| match (doubt, effect.follows) {
-        (Doubt::Followed, Some(rms)) => {
-            format!(
-                "{} of what is left follows it: another of its kind may act",
-                with_symbol(&significant(rms, 2), unit)
-            )
-        }
+        (Doubt::Followed, Some(rms)) => format!("{} of {}", with_symbol(&significant(rms, 2), unit), doubt.words()),
         _ => doubt.words().to_string(),
     };
     let reasons: Vec<String> = effect.doubts.iter().map(reason).collect();
