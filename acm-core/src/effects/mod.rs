@@ -70,6 +70,7 @@ pub const ALL: &[&dyn Effect] = &[
     &actuation::lag::coulomb_damping::CoulombDamping,
     &actuation::lag::state_dependent_lag::StateDependentLag,
     &actuation::lag::outflow::Outflow,
+    &actuation::lag::overflow::Overflow,
     &actuation::lag::friction_lag::FrictionLag,
     &actuation::lag::asymmetric_lag::AsymmetricLag,
     &actuation::lag::creep::Creep,

@@ -7,9 +7,10 @@ use super::{ParameterSpec, Rig, times};
 /// Damping ratios to start from: a long ringing, an overshoot, hardly any, a slow approach.
 const DAMPINGS: [f64; 4] = [0.06, 0.25, 0.7, 1.3];
 
-/// Natural period, silent at 0, and damping ratio.
+/// Natural period, silent at 0, and damping ratio. The period may be as long as a trial: two lags of τ in a row have one of 2πτ.
 pub fn parameters(rig: &Rig) -> Vec<ParameterSpec> {
-    vec![times::size(rig, "period"), ParameterSpec::shape("damping", "1", 0.7, 0.3).within(0.01, 3.0)]
+    let period = times::size(rig, "period").within(0.0, times::trial(rig));
+    vec![period, ParameterSpec::shape("damping", "1", 0.7, 0.3).within(0.01, 3.0)]
 }
 
 /// Every period with each damping ratio.

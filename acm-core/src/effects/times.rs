@@ -3,6 +3,7 @@
 //! | what            | from       | to       |
 //! | bounds          | Δt/5       | T/3      |
 //! | bounds of what may only begin | Δt/5 | T |
+//! | bounds of periods of what follows the actuators | 0 | T |
 //! | grid of times   | Δt         | T/3      |
 //! | grid of periods, of vibrations | 4 Δt | T/3 |
 //! | bounds of windows | 0        | T/25     |

@@ -26,7 +26,7 @@ fn planted(case: &Case) -> Vec<f64> {
 }
 
 /// Whether a record tells values near a guess: windows of none or of more than a few samples, a breaking away that is not over between
-/// two of them, and no ringing that outlasts the guesses next to it: damping or dry friction end it.
+/// two of them, a brim that is reached, and no ringing that outlasts the guesses next to it: damping or dry friction end it.
 fn is_told(case: &Case, guess: &[f64]) -> bool {
     let value = |name: &str| case.specs.iter().position(|spec| spec.name == name).map(|j| guess[j]);
     let largest = |name: &str| {
@@ -34,7 +34,14 @@ fn is_told(case: &Case, guess: &[f64]) -> bool {
         j.map_or(0.0, |j| case.starts.iter().map(|guess| guess[j]).fold(0.0, f64::max))
     };
     let is_braked = value("friction").is_some_and(|friction| friction == largest("friction"));
-    value("window").is_none_or(|window| window == 0.0 || window > 5.0 * case.scene.rig.step)
+    let reaches = |j: usize| {
+        let mut open = guess.to_vec();
+        open[j] = case.specs[j].neutral;
+        case.act(&open) != case.act(guess)
+    };
+    let brim = case.specs.iter().position(|spec| spec.name == "brim");
+    brim.is_none_or(reaches)
+        && value("window").is_none_or(|window| window == 0.0 || window > 5.0 * case.scene.rig.step)
         && value("speed").is_none_or(|speed| speed == largest("speed"))
         && (value("hardness").is_none() || value("damping").is_none_or(|damping| damping > 0.5) || is_braked)
 }

@@ -57,6 +57,8 @@ criteria!(
     resamples,
     sure,
     likely,
+    taken_back,
+    followed,
 );
 
 /// Changes a criterion: `edit` is `NAME=VALUE`.

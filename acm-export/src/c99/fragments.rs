@@ -34,6 +34,7 @@ const FRAGMENTS: &[(&str, &str, &[&str])] = &[
     ("varying_lag", include_str!("runtime/varying_lag.c"), &["relax", "parts"]),
     ("bent_pace", include_str!("runtime/bent_pace.c"), &["varying_lag"]),
     ("flow_pace", include_str!("runtime/flow_pace.c"), &["varying_lag"]),
+    ("overflow", include_str!("runtime/overflow.c"), &["flow_pace"]),
     ("bouc_wen", include_str!("runtime/bouc_wen.c"), &["expm1_d", "log1p_d"]),
     ("bouc_wen_power", include_str!("runtime/bouc_wen_power.c"), &["exp_d", "log1p_d"]),
     ("lugre", include_str!("runtime/lugre.c"), &["exp_d", "expm1_d"]),

@@ -19,6 +19,7 @@ const FAMILIES: &[Family] = &[
             "coulomb_damping",
             "state_dependent_lag",
             "outflow",
+            "overflow",
             "friction_lag",
             "asymmetric_lag",
             "viscous_slip",

@@ -45,6 +45,11 @@ pub struct Criteria {
     pub sure: f64,
     /// Share of resamples in which a likely effect is chosen again.
     pub likely: f64,
+    /// Largest multiple of the error without effects by which one of several may move the outputs and be sure.
+    pub taken_back: f64,
+    /// Largest part of what an effect removes that may follow it in what is left, and it be sure; root mean squares, for each effect of
+    /// the model and once more.
+    pub followed: f64,
 }
 
 impl Default for Criteria {
@@ -71,6 +76,8 @@ impl Default for Criteria {
             resamples: 200,
             sure: 0.95,
             likely: 0.5,
+            taken_back: 3.16,
+            followed: 0.03,
         }
     }
 }

@@ -126,20 +126,36 @@ pub fn charging(time: &[f64], motion: &Motion, tau: f64, saturated: f64) -> Vec<
 }
 
 /// Level of the lower of two vessels in a row, by the midpoint rule: each empties by a rate times the root of its level, and fills by the
-/// same of the one above. The motion, and 1.05, is the root of the level at which the inflow would hold the upper one.
-pub fn emptied(time: &[f64], motion: &Motion, rates: [f64; 2]) -> Vec<f64> {
+/// same of the one above, and a third of what that one spills. The motion, and 1.05, is the root of the level at which the inflow would hold
+/// the upper one; neither rises above `brim`. At rest at first.
+pub fn emptied(time: &[f64], motion: &Motion, rates: [f64; 2], brim: f64) -> Vec<f64> {
     let flow = |q: f64| (q + 1.05).max(0.0);
-    let start = flow(motion.at(time[0])).powi(2);
-    let levels = integrated(time, motion, [start; 2], |[upper, lower], from, to, h| {
+    let inflow = flow(motion.at(time[0]));
+    let passed = inflow.min(brim.sqrt());
+    let start = [passed, passed + (inflow - passed) / 3.0].map(|flow| flow.powi(2).min(brim));
+    let levels = integrated(time, motion, start, |[upper, lower], from, to, h| {
         let speeds = |[upper, lower]: [f64; 2], above: f64| {
+            let is_full = upper >= brim;
             let [upper, lower] = [upper, lower].map(|level: f64| level.max(0.0).sqrt());
-            [rates[0] * (flow(above) - upper), rates[1] * (upper - lower)]
+            let spilt = if is_full { (flow(above) - upper).max(0.0) } else { 0.0 };
+            [rates[0] * (flow(above) - upper), rates[1] * (upper + spilt / 3.0 - lower)]
         };
         let first = speeds([upper, lower], from);
         let middle = speeds([upper + 0.5 * h * first[0], lower + 0.5 * h * first[1]], 0.5 * (from + to));
-        [upper + h * middle[0], lower + h * middle[1]]
+        [(upper + h * middle[0]).min(brim), (lower + h * middle[1]).min(brim)]
     });
     levels.into_iter().map(|[_, lower]| lower).collect()
+}
+
+/// The motion behind two equal lags in a row, by the midpoint rule.
+pub fn twice_lagged(time: &[f64], motion: &Motion, tau: f64) -> Vec<f64> {
+    let states = integrated(time, motion, [motion.at(time[0]); 2], |[first, second], from, to, h| {
+        let middle = first + 0.5 * h * (from - first) / tau;
+        let next = first + h * (0.5 * (from + to) - middle) / tau;
+        let halfway = second + 0.5 * h * (first - second) / tau;
+        [next, second + h * (middle - halfway) / tau]
+    });
+    states.into_iter().map(|[_, second]| second).collect()
 }
 
 fn pushed(state: f64, q: f64, width: f64) -> f64 {

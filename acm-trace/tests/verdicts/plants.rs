@@ -10,7 +10,7 @@ use nalgebra::DMatrix;
 use rand::RngExt;
 
 use crate::bench::{Bench, STEP, effect, found, is_near, names, parameter, press, told};
-use crate::effects::{emptied, lagged_after, warmed};
+use crate::effects::{emptied, lagged_after, twice_lagged, warmed};
 use crate::motion::{Motion, normal, random};
 
 const NOISE: f64 = 0.01;
@@ -123,14 +123,38 @@ fn a_valve_has_a_dead_zone_about_its_rest() {
     assert!(is_near(&finding, NOISE), "{}", told(&finding));
 }
 
+/// Two lags of a tenth of a trial: as an oscillator its period is two thirds of the trial.
+#[test]
+fn a_slow_plant_of_second_order_is_found() {
+    let finding = traced(|name, k| {
+        let drive = straight().drive(k, 400, 73, &[]);
+        let tau = 0.1 * drive.time[399];
+        straight().trial(name, &drive, &[twice_lagged(&drive.time, &drive.motion[0], tau)])
+    });
+    assert_eq!(names(&finding), ["second_order_lag"], "{}", told(&finding));
+    assert!(is_near(&finding, NOISE), "{}", told(&finding));
+}
+
 /// Two vessels in a row empty through orifices.
 #[test]
 fn a_vessel_empties_into_another() {
     let finding = traced(|name, k| {
         let drive = straight().drive(k, 400, 74, &[]);
-        straight().trial(name, &drive, &[emptied(&drive.time, &drive.motion[0], [4.0, 1.5])])
+        straight().trial(name, &drive, &[emptied(&drive.time, &drive.motion[0], [4.0, 1.5], f64::INFINITY)])
     });
     assert_eq!(names(&finding), ["outflow"; 2], "{}", told(&finding));
+    assert!(is_near(&finding, NOISE), "{}", told(&finding));
+}
+
+/// Two vessels in a row, of which the lower one catches a third of what the upper one spills.
+#[test]
+fn vessels_overflow_into_another() {
+    const BRIM: f64 = 1.7;
+    let finding = traced(|name, k| {
+        let drive = straight().drive(k, 400, 75, &[]);
+        straight().trial(name, &drive, &[emptied(&drive.time, &drive.motion[0], [4.0, 1.5], BRIM)])
+    });
+    assert_eq!(names(&finding), ["overflow"; 2], "{}", told(&finding));
     assert!(is_near(&finding, NOISE), "{}", told(&finding));
 }
 

@@ -158,6 +158,13 @@ pub fn write(asked: &Asked) -> Option<Body> {
             "varying_lag_step(time, z, v[0], flow_pace, v + 1, &m->state[@J]) - z",
             Some(("$name_lag", "flow_pace")),
         ),
+        "overflow" => ranged(
+            asked,
+            4,
+            "v0 (1 + v1 z) dz/dt = x - z up to z = 1/v2 - 1,   x = (q - m)/h,   q' = m + h (z + v3 (x - z)) there, m + h z below",
+            "overflow_step(time, z, v, &m->state[@J]) - z",
+            Some(("$name_lag", "overflow")),
+        ),
         "input_nonlinearity" => ranged(
             asked,
             2 * asked.columns,

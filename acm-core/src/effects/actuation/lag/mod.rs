@@ -8,6 +8,7 @@ pub(crate) mod dead_time;
 pub(crate) mod friction_lag;
 pub(crate) mod nonlinear_stiffness;
 pub(crate) mod outflow;
+pub(crate) mod overflow;
 pub(crate) mod rate_limit;
 pub(crate) mod second_order_lag;
 pub(crate) mod state_dependent_lag;

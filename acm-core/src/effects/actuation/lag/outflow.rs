@@ -94,10 +94,10 @@ impl Effect for Outflow {
 }
 
 /// Smallest 1 + κz: near the bottom a vessel empties in no time.
-const LEAST: f64 = 1e-3;
+pub(super) const LEAST: f64 = 1e-3;
 
 /// τ at z over that at the middle.
-fn pace(z: f64, bend: f64) -> f64 {
+pub(super) fn pace(z: f64, bend: f64) -> f64 {
     (1.0 + bend * z).max(LEAST)
 }
 

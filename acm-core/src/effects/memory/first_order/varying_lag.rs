@@ -41,6 +41,11 @@ impl VaryingLag {
         self.before = Some(Point { time, x });
         self.z
     }
+
+    /// Puts z, after a step, where something else holds it.
+    pub fn hold(&mut self, z: f64) {
+        self.z = z;
+    }
 }
 
 #[cfg(test)]
