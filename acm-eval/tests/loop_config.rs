@@ -163,9 +163,17 @@ fn every_question_to_the_loop_can_be_read() {
         config.experiment_file(&source).unwrap_or_else(|error| panic!("{error}"));
         names.push(file.file_stem().unwrap().to_string_lossy().into_owned());
     }
-    for name in
-        ["close-the-loop", "trunk-loop", "trunk-payload", "pneumatic-cylinder", "faster", "grasper", "band-brake"]
-    {
+    let asked = [
+        "close-the-loop",
+        "trunk-loop",
+        "trunk-payload",
+        "pneumatic-cylinder",
+        "faster",
+        "grasper",
+        "band-brake",
+        "cascaded-tanks",
+    ];
+    for name in asked {
         assert!(names.contains(&name.to_string()), "{name} is not among {names:?}");
     }
 }
