@@ -5,16 +5,15 @@
 //! q̃ = m + h (z + c w),   w = x − z at the brim, 0 below it
 //! ```
 //!
-//! | symbol             | meaning                                                                                  | unit |
-//! | `τ`, `κ`, `m`, `h` | those of [`outflow`](super::outflow), all actuators                                      | s, 1 |
-//! | `β`                | half range h over the flow out of the full vessel, less the least of the range: 0 to 5   | 1    |
-//! | `c`                | share of what overflows that goes on with the outflow, 0 to 1                            | 1    |
+//! | symbol             | meaning                                                                           | unit |
+//! | `τ`, `κ`, `m`, `h` | those of [`outflow`](super::outflow), all actuators                               | s, 1 |
+//! | `β`                | brim: what flows out of the full vessel is 1/β of h above the least inflow, 0 to 5 | 1    |
+//! | `c`                | share of what overflows that goes on with the outflow, 0 to 1                     | 1    |
 //!
-//! The brim is reached at a sample: first order in the time between samples where it overflows, second order elsewhere
-//! ([`memory::VaryingLag`]). At β = 0 it has no brim, and is `outflow`; up to 1/2 nothing
-//! overflows within the range. A tank whose level is measured has c = 0; of two tanks one below
-//! the other the lower one catches a part of what the upper one spills. Schoukens & Noël (2017), Three benchmarks addressing open challenges
-//! in nonlinear system identification, IFAC-PapersOnLine 50(1), sec. 3 (cascaded tanks).
+//! At β = 0 it has no brim, and is `outflow`; up to 1/2 nothing overflows within the range. A tank whose level is measured has c = 0; of two
+//! tanks one below the other the lower one catches a part of what the upper one spills. The brim is reached at a sample: first order in the
+//! time between samples where it overflows, second order elsewhere ([`memory::VaryingLag`]). Schoukens & Noël (2017), Three benchmarks
+//! addressing open challenges in nonlinear system identification, IFAC-PapersOnLine 50(1), sec. 3 (cascaded tanks).
 
 use crate::effects::actuation::actuators;
 use crate::effects::actuation::lag::outflow::{LEAST, pace};
