@@ -8,11 +8,11 @@ use rayon::prelude::*;
 
 use super::accept::{Tested, least_t, paired_t};
 use super::candidates::{new_in, price};
-use super::expand::Tried;
 use super::scan::{Losses, sum};
 use super::scored::LEAST_FALL;
 use super::select::{Scored, Search, Selected, possible};
 use super::step::Step;
+use super::tried::{Tried, effect_of};
 use crate::fit::problem::Problem;
 use crate::fit::state::State;
 
@@ -46,11 +46,6 @@ impl Chosen {
         let labels = self.shares.iter().map(|(label, _)| label).chain(&self.equal);
         labels.filter(|label| !label.is_empty()).map(|label| effect_of(label).to_string()).collect()
     }
-}
-
-/// Returns the name of the effect in a label: `coulomb_friction` in `coulomb_friction(x) × payload`.
-pub fn effect_of(label: &str) -> &str {
-    label.split(['(', ' ']).next().unwrap_or(label)
 }
 
 /// Competition for the place of one effect.

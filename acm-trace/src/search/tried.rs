@@ -20,5 +20,10 @@ pub struct Tried {
     pub is_refined: bool,
 }
 
+/// Returns the name of the effect in a label: `coulomb_friction` in `coulomb_friction(x) × payload`.
+pub fn effect_of(label: &str) -> &str {
+    label.split(['(', ' ']).next().unwrap_or(label)
+}
+
 /// Every candidate on a state: those that were refined, best first, then the others.
 pub type Expansion = Vec<Tried>;

@@ -4,11 +4,11 @@ use acm_core::effects::find;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use super::effect_of;
 use crate::search::accept::paired_t;
 use crate::search::scan::Losses;
 use crate::search::scored::LEAST_FALL;
 use crate::search::select::Search;
+use crate::search::tried::effect_of;
 
 /// A candidate: its label, its losses on blocks left out, and the price of its set.
 pub type Competing<'l> = (String, &'l Losses, f64);
