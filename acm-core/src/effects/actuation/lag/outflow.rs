@@ -94,7 +94,7 @@ impl Effect for Outflow {
 }
 
 /// Smallest 1 + κz: near the bottom a vessel empties in no time.
-pub(super) const LEAST: f64 = 1e-3;
+const LEAST: f64 = 1e-3;
 
 /// τ at z over that at the middle.
 pub(super) fn pace(z: f64, bend: f64) -> f64 {

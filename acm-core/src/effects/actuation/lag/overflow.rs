@@ -16,7 +16,7 @@
 //! addressing open challenges in nonlinear system identification, IFAC-PapersOnLine 50(1), sec. 3 (cascaded tanks).
 
 use crate::effects::actuation::actuators;
-use crate::effects::actuation::lag::outflow::{LEAST, pace};
+use crate::effects::actuation::lag::outflow::{Outflow, pace};
 use crate::effects::{
     Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, guesses, memory, times,
 };
@@ -31,9 +31,6 @@ const OWN: usize = 4;
 const TAUS: usize = 6;
 const BENDS: [f64; 2] = [0.5, 0.9];
 const BRIMS: [[f64; 2]; 2] = [[1.0, 0.5], [0.7, 0.5]];
-
-/// Time constant up to which there is no vessel, s.
-const SHORTEST: f64 = 1e-9;
 
 impl Effect for Overflow {
     fn name(&self) -> &'static str {
@@ -64,8 +61,7 @@ impl Effect for Overflow {
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {
-        // Nothing overflows in an arm.
-        if rig.arm.is_some() { vec![] } else { actuators::moving(rig) }
+        Outflow.carriers(rig)
     }
 
     fn parameters(&self, rig: &Rig, _: Carrier) -> Vec<ParameterSpec> {
@@ -93,7 +89,7 @@ impl Effect for Overflow {
             let [tau, bend, brim, caught] = [0, 1, 2, 3].map(|j| values.at(j, t));
             let z = lag.step(record.time[t], x, tau, |_| move |z| pace(z, bend));
             let full = 1.0 / brim - 1.0;
-            if z < full || tau <= SHORTEST {
+            if z < full || tau <= memory::VaryingLag::NONE {
                 return z;
             }
             lag.hold(full);
@@ -102,18 +98,17 @@ impl Effect for Overflow {
     }
 
     fn memory(&self, values: Values) -> Option<f64> {
-        Some(values.at(0, 0) * (1.0 + values.at(1, 0)))
+        Outflow.memory(values)
     }
 
     fn second_memory(&self, values: Values) -> Option<f64> {
-        (values.at(1, 0) > 0.0).then(|| values.at(0, 0) * (1.0 - values.at(1, 0)).max(LEAST))
+        Outflow.second_memory(values)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::effects::actuation::lag::outflow::Outflow;
 
     const RANGE: [f64; 2] = [2.0, 0.0];
 
@@ -125,8 +120,8 @@ mod tests {
     }
 
     /// Oracle: ẏ = w − c √y of a vessel of 1 m², by steps of a tenth of a millisecond, whose level cannot rise beyond 1.69 m; it spills the
-    /// rest of w. With c = 1 m^2.5/s what flows out is √y, at most 1.3 m³/s, that is 1/β in half ranges
-    /// of 1 from the least at 0.
+    /// rest of w. With c = 1 m^2.5/s what flows out is √y, at most 1.3 m³/s, that is 1/β in
+    /// half ranges of 1 from the least at 0.
     #[test]
     fn a_vessel_spills_what_it_cannot_hold() {
         let time: Vec<f64> = (0..3000).map(|k| 0.01 * f64::from(k)).collect();

@@ -20,10 +20,13 @@ pub struct VaryingLag {
 impl State for VaryingLag {}
 
 impl VaryingLag {
+    /// Time constant up to which there is no lag, s.
+    pub const NONE: f64 = 1e-9;
+
     /// z at the next sample; `tau` is τ, s, and `paces(x)(z)` is b, above 0.
     #[inline]
     pub fn step<B: Fn(f64) -> f64>(&mut self, time: f64, x: f64, tau: f64, paces: impl Fn(f64) -> B) -> f64 {
-        match self.before.filter(|before| time > before.time && tau > 1e-9) {
+        match self.before.filter(|before| time > before.time && tau > Self::NONE) {
             Some(before) => {
                 let (h, ends) = parts(before, time, x, tau * paces(x)(self.z));
                 let (slope, mut past) = ((x - before.x) / (time - before.time), before.x);
