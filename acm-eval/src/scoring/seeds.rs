@@ -3,7 +3,7 @@
 //! | list | first seed | use |
 //! | --- | --- | --- |
 //! | development | 14 001 | rules and constants may be chosen on it |
-//! | report | 31 001 | scored for publication only, and never looked at before; those from 15 001 to 30 001 on were |
+//! | report | 35 001 | scored for publication only, and never looked at before; those from 15 001 to 34 001 on were |
 //!
 //! A list goes on from its first seed; it has a thousand seeds, so that the two never meet.
 
@@ -46,6 +46,6 @@ mod tests {
         let [one, two] = [Seeds::Development, Seeds::Report].map(|list| list.take(u64::MAX).collect::<Vec<u64>>());
         assert_eq!((one[0], two[0], one.len(), two.len()), (14_001, 35_001, 1000, 1000));
         assert!(one.iter().all(|seed| !two.contains(seed)));
-        assert_eq!(Seeds::Report.take(3).collect::<Vec<u64>>(), [35_001, 33_002, 33_003]);
+        assert_eq!(Seeds::Development.take(3).collect::<Vec<u64>>(), [14_001, 14_002, 14_003]);
     }
 }
