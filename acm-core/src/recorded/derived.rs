@@ -2,9 +2,10 @@
 //!
 //! They are kept by a hash of time stamps and signal, so that a record whose signals are changed has others.
 
-use std::hash::{DefaultHasher, Hasher};
+use std::hash::{BuildHasher, Hasher};
 use std::sync::Arc;
 
+use foldhash::fast::FixedState;
 use quick_cache::Weighter;
 use quick_cache::sync::Cache;
 
@@ -63,7 +64,7 @@ impl PartialEq for Derived {
 }
 
 fn hash(time: &[f64], signal: &[f64]) -> u64 {
-    let mut hasher = DefaultHasher::new();
+    let mut hasher = FixedState::default().build_hasher();
     time.iter().chain(signal).for_each(|value| hasher.write_u64(value.to_bits()));
     hasher.finish()
 }
