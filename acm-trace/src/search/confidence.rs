@@ -61,7 +61,8 @@ struct Place {
 
 /// Removes each effect of a settled set, and lets every candidate compete for its place, no effect among them. The losses are those
 /// of the set with its values refined on all samples.
-fn places(search: &mut Search, settled: &State, last_losses: &Losses) -> Vec<Place> {
+fn places(search: &mut Search, selected: &Selected) -> Vec<Place> {
+    let (settled, last_losses) = (&selected.settled.0, &selected.last_losses);
     let own_price = price(search.problem, settled, search.criteria);
     search
         .smaller(settled)
@@ -73,12 +74,21 @@ fn places(search: &mut Search, settled: &State, last_losses: &Losses) -> Vec<Pla
             let tried = with_close_refined(search, tried, &label);
             let others = possible(&tried, search.problem.rig).filter(|one| !refines(one, &label));
             let rivals = polished(search, others, &label, last_losses);
+            let compared = |state: &State, losses: &Losses| {
+                (
+                    search.on_equal_terms((&selected.last, last_losses), (state, losses)),
+                    price(search.problem, state, search.criteria),
+                )
+            };
+            let theirs: Vec<(Losses, f64)> = rivals.iter().map(|(_, state, losses)| compared(state, losses)).collect();
+            let (rest_losses, rest_price) = compared(&rest.1, &rest.2);
             let mut competing: Vec<Competing> = rivals
                 .iter()
-                .map(|(label, state, losses)| (label.clone(), losses, price(search.problem, state, search.criteria)))
+                .zip(&theirs)
+                .map(|((label, ..), (losses, price))| (label.clone(), losses, *price))
                 .collect();
             competing.push((label.clone(), last_losses, own_price));
-            competing.push((String::new(), &rest.2, price(search.problem, &rest.1, search.criteria)));
+            competing.push((String::new(), &rest_losses, rest_price));
             let own_terms = terms(settled, &label, search.problem);
             let has_no_more = |i: &usize| {
                 rivals.get(*i).is_none_or(|(label, state, _)| terms(state, label, search.problem) <= own_terms)
@@ -86,7 +96,7 @@ fn places(search: &mut Search, settled: &State, last_losses: &Losses) -> Vec<Pla
             let equal: Vec<usize> = equal(&competing).into_iter().filter(has_no_more).collect();
             let others = || equal.iter().filter_map(|&i| rivals.get(i)).filter(|(rival, ..)| *rival != label);
             let chosen = Chosen {
-                rise: sum(&rest.2) - sum(last_losses),
+                rise: sum(&rest_losses) - sum(last_losses),
                 shares: resampled(search, &competing),
                 rivals: others().map(|(_, state, _)| state.clone()).collect(),
                 equal: equal.iter().map(|&i| competing[i].0.clone()).collect(),
@@ -108,8 +118,9 @@ fn places(search: &mut Search, settled: &State, last_losses: &Losses) -> Vec<Pla
 fn exchanged(search: &mut Search, selected: &Selected, places: &[Place]) -> Option<Scored> {
     let score = search.score(&selected.last_losses, &selected.last);
     for Place { label, rest, better, .. } in places {
-        let Some(other) = better.as_ref().filter(|other| other.score < score - LEAST_FALL) else { continue };
-        if search.may_replace((&selected.last, &selected.last_losses), other)
+        let Some(other) = better else { continue };
+        let replacing = search.replacing((&selected.last, &selected.last_losses), other);
+        if replacing.is_some_and(|replacing| replacing < score - LEAST_FALL)
             && search.tested(&rest.1, &rest.2, other, &[], false) == Tested::Passed
         {
             search.note(&selected.last, &selected.last_losses, &format!("{label} → {}", other.label), &other.losses);
@@ -188,7 +199,7 @@ pub fn kept(search: &mut Search, selected: Selected, progress: impl FnMut(&Step)
     let told = search.steps.len();
     let mut selected = beside_map(search, selected);
     loop {
-        let mut places = places(search, &selected.settled.0, &selected.last_losses);
+        let mut places = places(search, &selected);
         if let Some(other) = exchanged(search, &selected, &places) {
             selected = selected.with(other);
             continue;

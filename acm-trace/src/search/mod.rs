@@ -17,6 +17,7 @@
 //! | [`nuisance`] | degree and ridge of the nominal form |
 //! | `nuisance::held` | actuators that are held at a few values |
 //! | `smoothed` | what smoother actuators explain |
+//! | `start` | what an unknown start of each trial explains by itself |
 //! | `scored`, `tried`, `step` | a search on its way, what it tries, what it tells |
 //! | [`select`] | the search itself |
 //! | `select::pairs` | effects that are proven beside a second one alone |
@@ -36,5 +37,6 @@ mod scored;
 pub mod select;
 mod settle;
 mod smoothed;
+mod start;
 mod step;
 mod tried;

@@ -57,9 +57,12 @@ impl Search<'_, '_> {
             told = steps.len();
         };
         let first = (self.score(&bare_losses, &bare), bare.clone(), bare_losses.clone());
-        let (mut beam, mut done) = match found {
+        // A set that predicts these trials no better than none does is no place to begin.
+        let again = found.map(|found| self.found_again(found)).filter(|again| again.0 < first.0);
+        self.exchanges |= again.is_none();
+        let (mut beam, mut done) = match again {
             None => (vec![first], vec![]),
-            Some(found) => (vec![self.found_again(found)], vec![first]),
+            Some(again) => (vec![again], vec![first]),
         };
         for _ in 0..self.criteria.max_effects {
             let next = self.grow(&beam, &mut done);

@@ -29,7 +29,7 @@ impl Search<'_, '_> {
                 break;
             }
         }
-        last
+        (self.score(&last.2, &last.1), last.1, last.2)
     }
 
     fn grow_once(&mut self, last: Scored) -> Scored {
@@ -66,8 +66,9 @@ impl Search<'_, '_> {
             }
             for (name, without) in self.smaller(&last.1) {
                 let rest = self.settled(&without);
-                if rest.0 < bar(&best) {
-                    best = Some((rest.clone(), format!("− {name}")));
+                let score = self.score(&self.on_equal_terms((&last.1, &last.2), (&rest.1, &rest.2)), &rest.1);
+                if score < bar(&best) {
+                    best = Some(((score, rest.1.clone(), rest.2.clone()), format!("− {name}")));
                 }
                 if last.1.effects.len() < 2 || !self.exchanges {
                     continue;
@@ -76,18 +77,18 @@ impl Search<'_, '_> {
                 let tried = self.expand(&without);
                 let others = possible(&tried, self.problem.rig).filter(|candidate| candidate.label != name);
                 for candidate in others.take(EXCHANGED) {
-                    if candidate.score < bar(&best)
-                        && self.may_replace((&last.1, &last.2), candidate)
+                    let score = self.replacing((&last.1, &last.2), candidate).filter(|score| *score < bar(&best));
+                    if let Some(score) = score
                         && self.tested(&rest.1, &rest.2, candidate, &tried, false) == Tested::Passed
                     {
-                        let found = (candidate.score, candidate.state.clone(), candidate.losses.clone());
+                        let found = (score, candidate.state.clone(), candidate.losses.clone());
                         best = Some((found, format!("{name} → {}", candidate.label)));
                     }
                 }
             }
             let Some((next, change)) = best else { return last };
             self.note(&last.1, &last.2, &change, &next.2);
-            last = next;
+            last = (self.score(&next.2, &next.1), next.1, next.2);
         }
         last
     }
@@ -107,11 +108,11 @@ impl Search<'_, '_> {
             let tried = self.expand(&rest.1);
             for candidate in possible(&tried, self.problem.rig).filter(|one| one.label != name).take(EXCHANGED) {
                 let bar = best.as_ref().map_or(last.0 - LEAST_FALL, |best| best.0.0);
-                if candidate.score < bar
-                    && self.may_replace((&last.1, &last.2), candidate)
+                let score = self.replacing((&last.1, &last.2), candidate).filter(|score| *score < bar);
+                if let Some(score) = score
                     && self.tested(&rest.1, &rest.2, candidate, &tried, false) == Tested::Passed
                 {
-                    let found = (candidate.score, candidate.state.clone(), candidate.losses.clone());
+                    let found = (score, candidate.state.clone(), candidate.losses.clone());
                     best = Some((
                         found,
                         format!("{name} → {}, {}", rest.1.effects[i].label(self.problem.rig), candidate.label),
@@ -121,7 +122,7 @@ impl Search<'_, '_> {
         }
         let Some((next, change)) = best else { return last };
         self.note(&last.1, &last.2, &change, &next.2);
-        next
+        (self.score(&next.2, &next.1), next.1, next.2)
     }
 
     /// Returns a set beside a nominal form with kinks, where that predicts better by as much as an effect has to. Kinks come last: a
@@ -159,11 +160,14 @@ impl Search<'_, '_> {
         best
     }
 
-    /// Returns whether a set may take the place of another: it costs less, or predicts better in most blocks.
-    pub(super) fn may_replace(&self, last: (&State, &Losses), candidate: &Tried) -> bool {
+    /// Returns J of a candidate as it compares with a set, where it may take that set's place: it costs less, or predicts better in most
+    /// blocks.
+    pub(super) fn replacing(&self, last: (&State, &Losses), candidate: &Tried) -> Option<f64> {
         let of = |state: &State| price(self.problem, state, self.criteria);
-        of(&candidate.state) < of(last.0)
-            || paired_t(last.1, &candidate.losses) > least_t(last.1.len(), self.criteria.level)
+        let losses = self.on_equal_terms(last, (&candidate.state, &candidate.losses));
+        let may =
+            of(&candidate.state) < of(last.0) || paired_t(last.1, &losses) > least_t(last.1.len(), self.criteria.level);
+        may.then(|| self.score(&losses, &candidate.state))
     }
 
     /// Returns the state without each of its effects, or without its clock correction.
@@ -189,6 +193,7 @@ mod tests {
     use crate::fit::problem::Problem;
     use crate::fit::state::Placed;
     use crate::search::criteria::Criteria;
+    use crate::search::scan::{cross_validate, sum};
 
     /// Oracle: y = c + e with e = c d + w. A size of c that depends on d takes up c d, and w stays; c and e together leave nothing.
     /// Where w is what is recorded in the place of e, it adds nothing, and the size goes on depending on d.
@@ -249,6 +254,33 @@ mod tests {
             search.first = search.settled(&bare).2.iter().sum();
             let last = search.settled(&bare.with(late));
             assert_eq!(search.split(last).1.labels(&rig), expected);
+        }
+    }
+
+    /// Oracle: y = q + 0.3 e^(−t/3 s) beside noise: what fades from the start of a trial is no effect. Creep forgives the state at the
+    /// start, and predicts better by that alone; with a part of 0.2 that comes late it is an effect, and stays.
+    #[test]
+    fn an_unknown_start_is_no_reason_to_keep_an_effect() {
+        let time = bench::time();
+        let rig = bench::rig(&["q"], &[], &["y"]);
+        let q: Vec<f64> = time.iter().map(|t| (0.7 * t).sin() + (1.9 * t).cos()).collect();
+        let record = Record::new(time.clone(), vec![q.clone()], vec![], vec![]);
+        for (share, expected) in [(0.0, vec![]), (0.2, vec!["creep"])] {
+            let creep = bench::placed("creep", Carrier::Rig, &rig, &[share, 3.0]);
+            let mut crept = vec![q.clone()];
+            creep.instance.act(&creep.theta, &record, &mut crept);
+            let mut noise = bench::noise(0.05);
+            let y = time.iter().zip(&crept[0]).map(|(t, y)| y + 0.3 * (-t / 3.0).exp() + noise()).collect();
+            let series = [bench::series(record.clone(), y)];
+            let problem = Problem::new(&rig, &series, &[1.0], None);
+            let (library, criteria) = ([creep.instance.clone()], Criteria::default());
+            let mut search = Search::plain(&problem, &library, &criteria);
+            let bare = State::bare(Form::LINEAR);
+            let bare_losses = cross_validate(&problem, &bare).unwrap();
+            search.first = sum(&bare_losses);
+            let last = search.settled(&bare.with(creep));
+            assert!(sum(&last.2) < 0.5 * sum(&bare_losses));
+            assert_eq!(search.tidy(last).1.labels(&rig), expected, "{share}");
         }
     }
 }
