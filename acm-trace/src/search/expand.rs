@@ -7,7 +7,6 @@ use super::candidates::{Candidate, adds_vibration, candidates, new_in, refinemen
 use super::nuisance;
 use super::scan::{Losses, Scanned, cross_validate, scan, sum};
 use super::scored::{Scored, Search, key};
-use super::start::Starts;
 use crate::fit::design::keep;
 use crate::fit::projected::project;
 use crate::fit::refine::{refine, steps};
@@ -85,10 +84,9 @@ impl Search<'_, '_> {
         let beta =
             project(self.quick, state).map_or_else(|| DMatrix::zeros(0, self.problem.outputs()), |fitted| fitted.beta);
         let scanned = scan(self.quick, state, &all, &beta);
-        let tried: Vec<Tried> =
+        let mut tried: Vec<Tried> =
             all.iter().zip(scanned).filter_map(|(candidate, scanned)| Some(self.tried(candidate, scanned?))).collect();
-        let mut starts = Starts::new(self, state);
-        let tried = starts.sort(self, tried, self.criteria.refined);
+        tried.sort_by(|a, b| a.score.total_cmp(&b.score));
         // A vibration beside what follows directly looks like any oscillator at first: it takes the place of none.
         let (vibrations, mut tried): (Vec<Tried>, Vec<Tried>) =
             tried.into_iter().partition(|one| adds_vibration(&one.label));
@@ -98,12 +96,10 @@ impl Search<'_, '_> {
         let refined = first + vibrations.len().min(1);
         tried.splice(first..first, vibrations);
         let mut better: Vec<Tried> = tried[..refined].par_iter().map(|one| self.refined(one)).collect();
-        better.iter_mut().for_each(|one| starts.charge(self, one));
         better.sort_by(|a, b| a.score.total_cmp(&b.score));
         let others = better.iter().filter(|one| !adds_vibration(&one.label));
         let first: Vec<&Tried> = others.take(self.criteria.beam).collect();
-        let mut further: Vec<Tried> = first.par_iter().flat_map_iter(|one| self.further(one)).collect();
-        further.iter_mut().for_each(|one| starts.charge(self, one));
+        let further: Vec<Tried> = first.par_iter().flat_map_iter(|one| self.further(one)).collect();
         better.extend(further);
         better.sort_by(|a, b| a.score.total_cmp(&b.score));
         // The rest was only looked at to first order.
