@@ -2,6 +2,7 @@
 //! chance.
 
 mod imitation;
+mod start;
 
 use acm_core::effects::ParameterSpec;
 use acm_core::rig::Rig;

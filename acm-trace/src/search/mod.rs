@@ -13,11 +13,11 @@
 //! | [`expand`] | all candidates of a state, the best refined |
 //! | [`accept`] | when one of them counts |
 //! | `accept::imitation` | when one stands for something else |
+//! | `accept::start` | what an unknown start of each trial explains by itself |
 //! | [`chance`] | what the best of them gains by chance, on residuals with random phases |
 //! | [`nuisance`] | degree and ridge of the nominal form |
 //! | `nuisance::held` | actuators that are held at a few values |
 //! | `smoothed` | what smoother actuators explain |
-//! | `start` | what an unknown start of each trial explains by itself |
 //! | `scored`, `tried`, `step` | a search on its way, what it tries, what it tells |
 //! | [`select`] | the search itself |
 //! | `select::pairs` | effects that are proven beside a second one alone |
@@ -37,6 +37,5 @@ mod scored;
 pub mod select;
 mod settle;
 mod smoothed;
-mod start;
 mod step;
 mod tried;

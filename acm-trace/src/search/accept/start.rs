@@ -6,22 +6,22 @@
 
 use acm_core::effects::Mode;
 
-use super::scan::{Losses, cross_validate, sum};
-use super::scored::Search;
 use crate::fit::problem::Problem;
 use crate::fit::state::{State, modes};
+use crate::search::scan::{Losses, cross_validate, sum};
+use crate::search::scored::Search;
 
 impl Search<'_, '_> {
     /// Returns the losses of a state, with as long a time forgiven at the start of each trial as the candidate's memory
     /// takes, where that is less.
-    pub(super) fn forgiven(&self, state: &State, losses: &Losses, candidate: &State) -> Losses {
+    pub(in crate::search) fn forgiven(&self, state: &State, losses: &Losses, candidate: &State) -> Losses {
         let forgiven = longer(state, candidate).and_then(|modes| forgiving(self.problem, state, modes));
         forgiven.filter(|forgiven| sum(forgiven) < sum(losses)).unwrap_or_else(|| losses.clone())
     }
 
     /// Returns the losses of another set as they compare with those of `own`: both forgive the start of each trial as long as the longer
     /// of their memories lasts.
-    pub(super) fn on_equal_terms(&self, own: (&State, &Losses), other: (&State, &Losses)) -> Losses {
+    pub(in crate::search) fn on_equal_terms(&self, own: (&State, &Losses), other: (&State, &Losses)) -> Losses {
         let own_alike = self.forgiven(own.0, own.1, other.0);
         let alike = self.forgiven(other.0, other.1, own.0);
         alike.iter().zip(own.1).zip(&own_alike).map(|((alike, own), own_alike)| alike + (own - own_alike)).collect()
