@@ -1,4 +1,4 @@
-//! Findings that could break a page: other units, many outputs, long names, nothing, numbers that are none.
+//! Made-up findings that could break a page: other units, many outputs, long names, nothing, numbers that are none.
 
 use acm_core::effects::Site;
 use acm_trace::finding::{

@@ -1,4 +1,4 @@
-//! Findings of each verdict, in millimetres.
+//! Made-up findings of each verdict, in millimetres.
 
 use acm_core::effects::Site;
 use acm_trace::finding::{

@@ -48,13 +48,12 @@ impl Search<'_, '_> {
         let losses = &forgiven;
         let gain = 1.0 - sum(&candidate.losses) / sum(losses);
         let t = paired_t(losses, &candidate.losses);
-        let score = self.score(&candidate.losses, &candidate.state);
-        let improves = score < self.score(losses, state)
+        let improves = candidate.score < self.score(losses, state)
             && !rests_on_bound(candidate, self.problem.rig)
             && !self.cancels(&candidate.state)
             && !self.is_nominal_misfit(state, losses, candidate)
             && !self.is_noise_of_encoders(state, candidate)
-            && self.is_better_as_saved((score, &candidate.state), (self.score(losses, state), state));
+            && self.is_better_as_saved((candidate.score, &candidate.state), (self.score(losses, state), state));
         let is_imitated = improves && self.is_static_misfit(state, candidate);
         let exceeds = |level: f64| t > least_t(losses.len(), level);
         let is_tried = improves && !is_imitated && exceeds(self.criteria.few);

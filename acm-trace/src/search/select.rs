@@ -57,12 +57,9 @@ impl Search<'_, '_> {
             told = steps.len();
         };
         let first = (self.score(&bare_losses, &bare), bare.clone(), bare_losses.clone());
-        // A set that predicts these trials no better than none does is no place to begin.
-        let again = found.map(|found| self.found_again(found)).filter(|again| again.0 < first.0);
-        self.exchanges |= again.is_none();
-        let (mut beam, mut done) = match again {
+        let (mut beam, mut done) = match found {
             None => (vec![first], vec![]),
-            Some(again) => (vec![again], vec![first]),
+            Some(found) => (vec![self.found_again(found)], vec![first]),
         };
         for _ in 0..self.criteria.max_effects {
             let next = self.grow(&beam, &mut done);
@@ -123,10 +120,10 @@ impl Search<'_, '_> {
                 grown.push(kinds.clone());
                 match next.iter_mut().find(|(_, old, _)| old.kinds(self.problem.rig) == kinds) {
                     Some(old) if candidate.score < old.0 => {
-                        *old = (candidate.score, candidate.state.clone(), candidate.losses.clone());
+                        *old = candidate.scored();
                     }
                     Some(_) => (),
-                    None => next.push((candidate.score, candidate.state.clone(), candidate.losses.clone())),
+                    None => next.push(candidate.scored()),
                 }
             }
             if !is_proven && unproven.is_none() {

@@ -29,7 +29,7 @@ impl Search<'_, '_> {
                 break;
             }
         }
-        (self.score(&last.2, &last.1), last.1, last.2)
+        last
     }
 
     fn grow_once(&mut self, last: Scored) -> Scored {
@@ -40,7 +40,7 @@ impl Search<'_, '_> {
         let tried = self.expand(&last.1);
         let mut ranked = possible(&tried, self.problem.rig).enumerate();
         match ranked.find(|(rank, one)| self.tested(&last.1, &last.2, one, &tried, *rank == 0) == Tested::Passed) {
-            Some((_, best)) => (best.score, best.state.clone(), best.losses.clone()),
+            Some((_, best)) => best.scored(),
             None => last,
         }
     }
@@ -48,27 +48,29 @@ impl Search<'_, '_> {
     /// Drops and exchanges while J falls.
     fn tidy(&mut self, mut last: Scored) -> Scored {
         for _ in 0..ROUNDS {
-            let mut best: Option<(Scored, String)> = None;
-            let bar = |best: &Option<(Scored, String)>| best.as_ref().map_or(last.0 - LEAST_FALL, |best| best.0.0);
+            // With J as it compares with the last set.
+            let mut best: Option<(f64, Scored, String)> = None;
+            let bar = |best: &Option<(f64, Scored, String)>| best.as_ref().map_or(last.0 - LEAST_FALL, |best| best.0);
             for i in 0..last.1.effects.len() {
                 for (simple, plain) in plainer(&last.1, i, self.library) {
                     let plain = self.settled(&plain);
                     if plain.0 < bar(&best) {
-                        best = Some((plain, format!("{} → {simple}", last.1.effects[i].label(self.problem.rig))));
+                        let change = format!("{} → {simple}", last.1.effects[i].label(self.problem.rig));
+                        best = Some((plain.0, plain, change));
                     }
                 }
             }
             for (change, fewer) in merged(self.problem, &last.1, self.library) {
                 let fewer = self.settled(&fewer);
                 if fewer.0 < bar(&best) {
-                    best = Some((fewer, change));
+                    best = Some((fewer.0, fewer, change));
                 }
             }
             for (name, without) in self.smaller(&last.1) {
                 let rest = self.settled(&without);
                 let score = self.score(&self.on_equal_terms((&last.1, &last.2), (&rest.1, &rest.2)), &rest.1);
                 if score < bar(&best) {
-                    best = Some(((score, rest.1.clone(), rest.2.clone()), format!("− {name}")));
+                    best = Some((score, rest.clone(), format!("− {name}")));
                 }
                 if last.1.effects.len() < 2 || !self.exchanges {
                     continue;
@@ -81,14 +83,13 @@ impl Search<'_, '_> {
                     if let Some(score) = score
                         && self.tested(&rest.1, &rest.2, candidate, &tried, false) == Tested::Passed
                     {
-                        let found = (score, candidate.state.clone(), candidate.losses.clone());
-                        best = Some((found, format!("{name} → {}", candidate.label)));
+                        best = Some((score, candidate.scored(), format!("{name} → {}", candidate.label)));
                     }
                 }
             }
-            let Some((next, change)) = best else { return last };
+            let Some((_, next, change)) = best else { return last };
             self.note(&last.1, &last.2, &change, &next.2);
-            last = (self.score(&next.2, &next.1), next.1, next.2);
+            last = next;
         }
         last
     }
@@ -99,7 +100,7 @@ impl Search<'_, '_> {
         if !self.exchanges {
             return last;
         }
-        let mut best: Option<(Scored, String)> = None;
+        let mut best: Option<(f64, Scored, String)> = None;
         for i in 0..last.1.effects.len() {
             let plain = || plainer(&last.1, i, self.library).into_iter().next().map(|(_, plain)| plain);
             let Some(steady) = steadied(self.problem, &last.1, i, self.library).or_else(plain) else { continue };
@@ -107,22 +108,19 @@ impl Search<'_, '_> {
             let rest = self.settled(&steady);
             let tried = self.expand(&rest.1);
             for candidate in possible(&tried, self.problem.rig).filter(|one| one.label != name).take(EXCHANGED) {
-                let bar = best.as_ref().map_or(last.0 - LEAST_FALL, |best| best.0.0);
+                let bar = best.as_ref().map_or(last.0 - LEAST_FALL, |best| best.0);
                 let score = self.replacing((&last.1, &last.2), candidate).filter(|score| *score < bar);
                 if let Some(score) = score
                     && self.tested(&rest.1, &rest.2, candidate, &tried, false) == Tested::Passed
                 {
-                    let found = (score, candidate.state.clone(), candidate.losses.clone());
-                    best = Some((
-                        found,
-                        format!("{name} → {}, {}", rest.1.effects[i].label(self.problem.rig), candidate.label),
-                    ));
+                    let change = format!("{name} → {}, {}", rest.1.effects[i].label(self.problem.rig), candidate.label);
+                    best = Some((score, candidate.scored(), change));
                 }
             }
         }
-        let Some((next, change)) = best else { return last };
+        let Some((_, next, change)) = best else { return last };
         self.note(&last.1, &last.2, &change, &next.2);
-        (self.score(&next.2, &next.1), next.1, next.2)
+        next
     }
 
     /// Returns a set beside a nominal form with kinks, where that predicts better by as much as an effect has to. Kinks come last: a
@@ -280,6 +278,13 @@ mod tests {
             search.first = sum(&bare_losses);
             let last = search.settled(&bare.with(creep));
             assert!(sum(&last.2) < 0.5 * sum(&bare_losses));
+            // Nor to exchange one for it.
+            let play = search.settled(&bare.with(bench::placed("backlash", Carrier::Rig, &rig, &[0.01])));
+            let (score, state, losses) = last.clone();
+            let creep = Tried { label: "creep".into(), state, score, scanned: score, losses, is_refined: true };
+            let is_better =
+                search.replacing((&play.1, &play.2), &creep).is_some_and(|score| score < play.0 - LEAST_FALL);
+            assert!(creep.score < play.0 && is_better != expected.is_empty(), "{share}");
             assert_eq!(search.tidy(last).1.labels(&rig), expected, "{share}");
         }
     }

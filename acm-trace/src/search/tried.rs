@@ -1,6 +1,7 @@
 //! Result of an expansion.
 
 use super::scan::Losses;
+use super::scored::Scored;
 use crate::fit::state::State;
 
 /// A candidate with its errors.
@@ -18,6 +19,13 @@ pub struct Tried {
     pub losses: Losses,
     /// Whether the losses are those of the model with its values refined; otherwise of the model to first order.
     pub is_refined: bool,
+}
+
+impl Tried {
+    /// Returns its score, state and losses.
+    pub fn scored(&self) -> Scored {
+        (self.score, self.state.clone(), self.losses.clone())
+    }
 }
 
 /// Returns the name of the effect in a label: `coulomb_friction` in `coulomb_friction(x) × payload`.

@@ -31,7 +31,7 @@ impl Search<'_, '_> {
             let mut kept = possible(&tried, self.problem.rig).filter(|one| one.state.keeps(named, self.problem.rig));
             let next = kept.find(|one| search.tested(&last.1, &last.2, one, &tried, false) == Tested::Passed);
             let Some(next) = next else { break };
-            last = (next.score, next.state.clone(), next.losses.clone());
+            last = next.scored();
             grown = true;
         }
         if !grown {
