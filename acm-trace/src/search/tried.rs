@@ -1,7 +1,6 @@
 //! Result of an expansion.
 
 use super::scan::Losses;
-use super::scored::Scored;
 use crate::fit::state::State;
 
 /// A candidate with its errors.
@@ -23,7 +22,7 @@ pub struct Tried {
 
 impl Tried {
     /// Returns its score, state and losses.
-    pub fn scored(&self) -> Scored {
+    pub fn scored(&self) -> (f64, State, Losses) {
         (self.score, self.state.clone(), self.losses.clone())
     }
 }
