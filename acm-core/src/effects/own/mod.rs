@@ -20,7 +20,7 @@
 //! | `sound`                               | whether names and numbers can be used                 |
 //! | `expression`, `function`, `units`, `dimensions` | expressions, and whether their units fit    |
 //! | `affine`, `phi`                       | whether a rate is linear, and its exact step          |
-//! | `program`, `plan`, `run`, `linear`    | from a definition to numbers                          |
+//! | `program`, `plan`, `run`              | from a definition to numbers                          |
 //! | `rig`                                 | a plan on one rig                                     |
 //!
 //! A rate that is linear in states and inputs, with coefficients of parameters and constants alone, is integrated exactly; any
@@ -33,7 +33,6 @@ mod dimensions;
 mod expression;
 mod fault;
 mod function;
-mod linear;
 mod phi;
 mod plan;
 mod program;

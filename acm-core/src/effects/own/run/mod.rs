@@ -3,10 +3,12 @@
 //! Register r holds sample k of column l at r·stride + k·L + l, where L columns are acted on alike. Constants are computed once,
 //! what depends on no state for the whole block, and states sample by sample.
 
+mod linear;
+mod runge_kutta;
+mod states;
+
 use std::ops::Range;
 
-use super::function::Function;
-use super::phi;
 use super::plan::{Form, Plan};
 use super::program::{Class, run};
 use crate::effects::Values;
@@ -80,7 +82,7 @@ pub struct Piece<'a> {
 }
 
 /// A block of samples in the registers.
-pub(super) struct Block {
+struct Block {
     first: usize,
     pub samples: usize,
     pub lanes: usize,
@@ -232,176 +234,6 @@ impl Plan {
             }
         }
     }
-
-    /// States of every sample of a block.
-    fn step(&self, block: &Block, track: &mut Track, constant: bool) {
-        match &self.form {
-            Form::Static => (),
-            Form::Update => self.update(block, track, constant),
-            Form::Linear(linear) => match self.now.len() {
-                1 => self.linear::<1>(linear, block, track, constant),
-                2 => self.linear::<2>(linear, block, track, constant),
-                3 => self.linear::<3>(linear, block, track, constant),
-                4 => self.linear::<4>(linear, block, track, constant),
-                5 => self.linear::<5>(linear, block, track, constant),
-                _ => self.linear::<{ phi::MOST }>(linear, block, track, constant),
-            },
-            Form::RungeKutta { rates, steps } => self.runge_kutta(rates, *steps, block, track, constant),
-        }
-        self.keep(block, track);
-    }
-
-    /// Remembers the last sample.
-    fn keep(&self, block: &Block, track: &mut Track) {
-        let last = block.samples - 1;
-        for (i, &now) in self.now.iter().enumerate() {
-            let from = block.at(now, last, 0);
-            let kept = &track.buffer[from..from + block.lanes];
-            track.states[i * block.lanes..(i + 1) * block.lanes].copy_from_slice(kept);
-        }
-        for register in 0..self.base {
-            let from = block.at(register, last, 0);
-            let kept = &track.buffer[from..from + block.lanes];
-            track.base[register * block.lanes..(register + 1) * block.lanes].copy_from_slice(kept);
-        }
-        track.begun = true;
-    }
-
-    /// A state before sample `k`.
-    pub(super) fn past(&self, block: &Block, track: &Track, i: usize, k: usize, lane: usize) -> f64 {
-        match k {
-            0 => track.states[i * block.lanes + lane],
-            _ => track.buffer[block.at(self.now[i], k - 1, lane)],
-        }
-    }
-
-    /// What a state starts at, at sample `k`.
-    pub(super) fn begin(&self, block: &Block, track: &mut Track, k: usize, lane: usize) {
-        for (&start, &now) in self.start.iter().zip(&self.now) {
-            track.buffer[block.at(now, k, lane)] = track.buffer[block.at(start, k, lane)];
-        }
-    }
-
-    /// At the first sample of a trial all states are at their start: whether this is it.
-    fn begins(&self, block: &Block, track: &mut Track, k: usize) -> bool {
-        let is = k == 0 && !track.begun;
-        (0..if is { block.lanes } else { 0 }).for_each(|lane| self.begin(block, track, k, lane));
-        is
-    }
-
-    /// Where all sizes are silent, a state is at its start.
-    fn rest(&self, block: &Block, track: &mut Track, k: usize, constant: bool) {
-        for lane in 0..if constant { 0 } else { block.lanes } {
-            if track.silent[k * block.lanes + lane] {
-                self.begin(block, track, k, lane);
-            }
-        }
-    }
-
-    fn update(&self, block: &Block, track: &mut Track, constant: bool) {
-        if let Some(chain) = self.chain.as_ref().filter(|_| constant) {
-            return self.follow(chain, block, track);
-        }
-        let operations = self.program.of(Class::State);
-        for k in 0..block.samples {
-            if self.begins(block, track, k) {
-                continue;
-            }
-            for (i, &before) in self.before.iter().enumerate() {
-                for lane in 0..block.lanes {
-                    track.buffer[block.at(before, k, lane)] = self.past(block, track, i, k, lane);
-                }
-            }
-            let span = k * block.lanes..(k + 1) * block.lanes;
-            run(operations, &mut track.buffer, block.stride, span);
-            self.rest(block, track, k, constant);
-        }
-    }
-
-    /// One state that each operation takes on from the one before: it stays in a register of the processor.
-    fn follow(&self, chain: &[(Function, usize)], block: &Block, track: &mut Track) {
-        let first = usize::from(self.begins(block, track, 0));
-        for lane in 0..block.lanes {
-            if first < block.samples {
-                let state = self.past(block, track, 0, first, lane);
-                let places = (first * block.lanes + lane..block.samples * block.lanes).step_by(block.lanes);
-                followed(chain, state, &mut track.buffer, block.stride, self.now[0], places);
-            }
-        }
-    }
-
-    /// Classical fourth order, in equal steps, with inputs straight between samples.
-    fn runge_kutta(&self, rates: &[usize], steps: usize, block: &Block, track: &mut Track, constant: bool) {
-        let (lanes, states) = (block.lanes, self.now.len());
-        let registers = self.program.registers();
-        grow(&mut track.point, registers * lanes);
-        // States, and the sum of their rates.
-        grow(&mut track.stages, 2 * states * lanes);
-        for k in 0..block.samples {
-            if self.begins(block, track, k) {
-                continue;
-            }
-            for register in 0..registers {
-                if self.program.classes[register] == Class::Constant || register == self.elapsed {
-                    let from = block.at(register, k, 0);
-                    track.point[register * lanes..(register + 1) * lanes]
-                        .copy_from_slice(&track.buffer[from..from + lanes]);
-                }
-            }
-            let part = track.buffer[block.at(self.elapsed, k, 0)] / steps as f64;
-            for i in 0..states {
-                for lane in 0..lanes {
-                    track.stages[i * lanes + lane] = self.past(block, track, i, k, lane);
-                }
-            }
-            for m in 0..steps {
-                let share = |within: f64| (m as f64 + within) / steps as f64;
-                track.stages[states * lanes..].fill(0.0);
-                let mut reach = 0.0;
-                for (within, next, weight) in [(0.0, 0.5, 1.0), (0.5, 0.5, 2.0), (0.5, 1.0, 2.0), (1.0, 0.0, 1.0)] {
-                    self.rates(rates, block, track, k, (share(within), reach * part));
-                    for (i, &rate) in rates.iter().enumerate() {
-                        for lane in 0..lanes {
-                            track.stages[(states + i) * lanes + lane] += weight * track.point[rate * lanes + lane];
-                        }
-                    }
-                    reach = next;
-                }
-                for at in 0..states * lanes {
-                    track.stages[at] += part / 6.0 * track.stages[states * lanes + at];
-                }
-            }
-            for (i, &now) in self.now.iter().enumerate() {
-                for lane in 0..lanes {
-                    track.buffer[block.at(now, k, lane)] = track.stages[i * lanes + lane];
-                }
-            }
-            self.rest(block, track, k, constant);
-        }
-    }
-
-    /// Rates at `share` of the way to sample `k`, where states have gone `reach` seconds at the rates of the stage before.
-    fn rates(&self, rates: &[usize], block: &Block, track: &mut Track, k: usize, (share, reach): (f64, f64)) {
-        let lanes = block.lanes;
-        for (i, &before) in self.before.iter().enumerate() {
-            for lane in 0..lanes {
-                let gone = if reach == 0.0 { 0.0 } else { reach * track.point[rates[i] * lanes + lane] };
-                track.point[before * lanes + lane] = track.stages[i * lanes + lane] + gone;
-            }
-        }
-        for register in 0..self.base {
-            for lane in 0..lanes {
-                let now = track.buffer[block.at(register, k, lane)];
-                let past = match k {
-                    0 => track.base[register * lanes + lane],
-                    _ => track.buffer[block.at(register, k - 1, lane)],
-                };
-                track.point[register * lanes + lane] = past + share * (now - past);
-            }
-        }
-        run(self.program.of(Class::Sample), &mut track.point, lanes, 0..lanes);
-        run(self.program.of(Class::State), &mut track.point, lanes, 0..lanes);
-    }
 }
 
 /// Place of a parameter's value for one lane.
@@ -409,46 +241,7 @@ fn place((first, is_each): (usize, bool), lane: usize) -> usize {
     first + if is_each { lane } else { 0 }
 }
 
-/// The state of each place in turn, into the register `now`, which is behind all others of the chain.
-fn followed(
-    chain: &[(Function, usize)],
-    mut state: f64,
-    buffer: &mut [f64],
-    stride: usize,
-    now: usize,
-    places: impl Iterator<Item = usize>,
-) {
-    let (others, own) = buffer.split_at_mut(now * stride);
-    let of = |register: usize| &others[register * stride..(register + 1) * stride];
-    let own = &mut own[..stride];
-    match *chain {
-        // A play.
-        [(Function::Max, low), (Function::Min, high)] => {
-            let (low, high) = (of(low), of(high));
-            places.for_each(|k| {
-                state = state.max(low[k]).min(high[k]);
-                own[k] = state;
-            });
-        }
-        _ => places.for_each(|k| {
-            for &(function, other) in chain {
-                let other = others[other * stride + k];
-                state = match function {
-                    Function::Add => state + other,
-                    Function::Multiply => state * other,
-                    Function::Min => state.min(other),
-                    Function::Max => state.max(other),
-                    Function::Subtract => state - other,
-                    Function::Divide => state / other,
-                    function => function.of([state, other, 0.0]),
-                };
-            }
-            own[k] = state;
-        }),
-    }
-}
-
-pub(super) fn grow(room: &mut Vec<f64>, length: usize) {
+fn grow(room: &mut Vec<f64>, length: usize) {
     if room.len() < length {
         room.resize(length, 0.0);
     }

@@ -1,8 +1,8 @@
 //! A linear rate on its way through a block: exact steps of states that are forced by inputs.
 
-use super::phi::{Square, Step, System};
-use super::plan::{Linear, Plan};
-use super::run::{Block, Track, grow};
+use super::super::phi::{Square, Step, System};
+use super::super::plan::{Linear, Plan};
+use super::{Block, Track, grow};
 
 impl Plan {
     /// States of every sample of a block.
