@@ -50,7 +50,7 @@ enum Command {
 }
 
 const EXIT_CODES: &str = "Exit codes: 0 done; 2 usage or configuration; 3 data, or records that cannot be compared; 4 file system; 5 the output \
-     folder is in use.";
+     folder is in use; 130 stopped by Ctrl-C.";
 
 fn main() -> ExitCode {
     // A closed pipe, as of `acm-eval score-loop | head`, ends the program and is no failure.

@@ -17,7 +17,10 @@ fn rows(chapter: &str) -> BTreeSet<(String, String)> {
 #[test]
 fn the_book_has_every_effect_with_its_meaning() {
     let path = "../book/src/effects.md";
-    let written = rows(&std::fs::read_to_string(path).unwrap());
+    let text = std::fs::read_to_string(path).unwrap();
+    let written = rows(&text);
     let known = ALL.iter().map(|effect| (effect.name().to_string(), effect.meaning().to_string())).collect();
     assert_eq!(written, known);
+    let count = format!("The {} physical effects", ALL.len());
+    assert!(text.contains(&count), "{path} does not say: {count}");
 }

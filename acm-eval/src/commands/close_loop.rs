@@ -15,8 +15,8 @@ pub const ABOUT: &str = "\
 Finds the physical effect that a nominal model lacks, and reports the error before and after
 
 Takes recordings and a nominal model, looks at what the model misses, traces it to an effect (a dead time, backlash, a tip \
-load, …), puts that effect at its place, fits everything again, and compares on trials that took no part. Or it says \
-honestly that nothing is missing, that it knows no such effect, or that these data cannot tell two effects apart.";
+load, …), puts that effect at its place, fits everything again, and compares on trials that took no part. Or it \
+reports that nothing is missing, that no known effect fits, or that these data cannot tell two effects apart.";
 
 /// Examples below the options.
 pub const EXAMPLES: &str = "\
@@ -67,12 +67,12 @@ A configuration names only what differs from the defaults:
   without = [\"creep\"]
   [search]                         # max_effects, samples, seed
   max_effects = 3
-  [networks]                       # + effect, + network, + both
+  [networks]                       # nominal, + effect, + network, + both
   experiment = \"experiments/cfc.toml\"
 Of that experiment, data and [nominal] are the loop's own.
 
 Results in DIR: loop.html for people, with its figures (figures/, SVG and PNG) and tables (tables/, CSV)
-beside it, loop.json for programs, and model.json, the model with what it lacked (refuted.json where
+beside it, loop.json for programs, and model.json, the nominal model with its effects (refuted.json where
 held-out trials refute it): acm-train takes it as
 [nominal] augmented = \"DIR/model.json\", with recordings of the same robot; it refuses others by their
 signals and [arm], and tells where ranges are left. An earlier result is

@@ -43,7 +43,7 @@ pub struct Finding {
     pub sentence: String,
     /// Verdict.
     pub verdict: Verdict,
-    /// Effects that the model lacked, in the order in which they were found.
+    /// Effects that the model lacked, the largest first.
     pub effects: Vec<FoundEffect>,
     /// Effects of the model that are no claim, the largest first.
     #[serde(default)]

@@ -216,4 +216,29 @@ mod tests {
         assert_eq!(apart(&whole), expected);
         assert_eq!(apart(&whole.with(of(Carrier::Actuator(1)))), Vec::<Vec<f64>>::new());
     }
+
+    /// Oracle: a joint has a moment of inertia, viscous and Coulomb friction at once; with any of them in the model the others are tried.
+    #[test]
+    fn frictions_and_inertia_of_a_joint_go_together() {
+        let rig = bench::rig(&["q"], &[], &["y"]);
+        let q: Vec<f64> = bench::time().iter().map(|t| (1.7 * t).sin()).collect();
+        let series = [bench::series(Record::new(bench::time(), vec![q.clone()], vec![], vec![]), q)];
+        let problem = Problem::new(&rig, &series, &[1.0], None);
+        let all = ["inertia", "viscous_friction", "coulomb_friction"];
+        let of = |name: &str| bench::placed(name, Carrier::Actuator(0), &rig, &[]);
+        let library: Vec<Instance> = all.iter().map(|name| of(name).instance).collect();
+        for first in all {
+            let state = State::bare(Form::LINEAR).with(of(first));
+            let found = candidates(&problem, &state, &library, false);
+            let goes_with = |name: &str| {
+                let names = |state: &State| -> Vec<&str> {
+                    state.effects.iter().map(|placed| placed.instance.effect().name()).collect()
+                };
+                found.iter().flat_map(|one| &one.states).any(|state| names(state) == [first, name])
+            };
+            for other in all.into_iter().filter(|other| *other != first) {
+                assert!(goes_with(other), "{other} beside {first}");
+            }
+        }
+    }
 }

@@ -271,4 +271,28 @@ mod tests {
         assert_eq!(chosen(&|[a, b, c]| 3.0 * a.sin() + 2.0 * (b + c).sin() + (a + b + c).sin()), Sums::Planar);
         assert_eq!(chosen(&|[a, b, _]| 3.0 * a.sin() + 2.0 * (a - b).sin()), Sums::UpTo(2));
     }
+
+    /// Oracle: the truth is a plane, and a cubic of six actuators has 83 coefficients of noise. With a lag in the model, too.
+    #[test]
+    fn a_plane_over_six_actuators_stays_a_plane() {
+        let names = ["a", "b", "c", "d", "e", "f"];
+        let rig = bench::rig(&names, &[], &["y"]);
+        let mut noise = bench::noise(0.2);
+        let course = |k: usize| -> Vec<f64> {
+            bench::time().iter().map(|t| ((0.4 + 0.31 * k as f64) * t + k as f64).sin()).collect()
+        };
+        let q: Vec<Vec<f64>> = (0..names.len()).map(course).collect();
+        let y = (0..q[0].len()).map(|t| q.iter().zip(1..).map(|(q, w)| q[t] / f64::from(w)).sum::<f64>() + noise());
+        let y: Vec<f64> = y.collect();
+        let mut series = bench::series(Record::new(bench::time(), q, vec![], vec![]), y);
+        series.block = (0..series.rows.len()).map(|k| k / 200).collect();
+        let series = [series];
+        let problem = Problem::new(&rig, &series, &[1.0], None);
+        let bare = State::bare(Form::LINEAR);
+        let lagging = bare.with(bench::placed("actuator_lag", acm_core::effects::Carrier::Rig, &rig, &[0.02]));
+        for state in [bare, lagging] {
+            let form = choose(&problem, &state, &Criteria::default()).0.form;
+            assert_eq!(form.degree, Some(1), "{form:?}");
+        }
+    }
 }
