@@ -216,7 +216,7 @@ pub trait Effect: Send + Sync {
     /// Stable: other programs read it.
     fn name(&self) -> &str;
 
-    /// In words, for a reader who does not know the name: `the tip follows the actuators late`.
+    /// In words, for a reader who does not know the name: `the outputs follow the actuators after a fixed delay`.
     fn meaning(&self) -> &str;
 
     /// Where it acts.

@@ -3,7 +3,7 @@
 //! All of it goes to stderr, so that stdout holds the summary alone.
 
 use std::{
-    cell::OnceCell,
+    cell::{OnceCell, RefCell},
     io::{IsTerminal, Write, stderr},
     time::Duration,
 };
@@ -22,6 +22,8 @@ pub struct Steps {
     unit: Option<String>,
     /// Display of errors, chosen by the first error, so that all lines share it.
     display: OnceCell<Display>,
+    /// The line before: a candidate that is rejected again, from another set, is shown once.
+    before: RefCell<String>,
 }
 
 impl Steps {
@@ -34,7 +36,7 @@ impl Steps {
             bar.enable_steady_tick(Duration::from_millis(120));
             bar
         });
-        Self { bar, unit: alike.then(|| first.to_string()), display: OnceCell::new() }
+        Self { bar, unit: alike.then(|| first.to_string()), display: OnceCell::new(), before: RefCell::default() }
     }
 
     /// Shows the current step.
@@ -48,6 +50,9 @@ impl Steps {
     /// Shows that a step was accepted, or its best candidate rejected.
     pub fn tried(&self, step: &Step) {
         let line = self.line(step);
+        if self.before.replace(line.clone()) == line {
+            return;
+        }
         match &self.bar {
             Some(bar) => {
                 bar.println(line);

@@ -45,7 +45,7 @@ pub struct Finding {
     pub verdict: Verdict,
     /// Effects that the model lacked, the largest first.
     pub effects: Vec<FoundEffect>,
-    /// Effects of the model that are no claim, the largest first.
+    /// Minor effects: in the model, and too small to be named; the largest first.
     #[serde(default)]
     pub minor: Vec<MinorEffect>,
     /// Names of all effects that explain as much as the first one does, itself included.

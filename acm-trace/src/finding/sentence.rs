@@ -32,12 +32,12 @@ pub fn sentence(finding: &Finding) -> String {
     [Some(first), clock, offset, minor(finding)].into_iter().flatten().collect()
 }
 
-/// Lists the effects that are in the model and are no claim.
+/// Lists the minor effects.
 fn minor(finding: &Finding) -> Option<String> {
     let named = |effect: &MinorEffect| effect_title(&effect.name) + &carried(effect.carrier.as_deref());
     let names: Vec<String> = finding.minor.iter().map(named).collect();
     (!names.is_empty())
-        .then(|| format!(" Beside them the model has minor effects, which are no claim: {}.", names.join(", ")))
+        .then(|| format!(" The model also has minor effects, too small to be named: {}.", names.join(", ")))
 }
 
 fn carried(carrier: Option<&str>) -> String {

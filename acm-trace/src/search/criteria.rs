@@ -15,7 +15,7 @@ pub struct Criteria {
     pub rare: f64,
     /// Price of each parameter after the first, in prices.
     pub parameter: f64,
-    /// Price of an effect that is in the model and is no claim, in prices.
+    /// Price of a minor effect, which is in the model and not named, in prices.
     pub minor: f64,
     /// Constant ε: an error below a hundredth of the first one hardly counts.
     pub negligible: f64,

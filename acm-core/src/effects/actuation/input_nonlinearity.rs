@@ -29,7 +29,7 @@ impl Effect for InputNonlinearity {
     }
 
     fn meaning(&self) -> &'static str {
-        "what drives the arm is a bent function of an actuator"
+        "the drive is a nonlinear function of an actuator"
     }
 
     fn site(&self) -> Site {

@@ -22,7 +22,7 @@ impl Effect for StaticGain {
     }
 
     fn meaning(&self) -> &'static str {
-        "an actuator moves the arm by a different gain, and from a different zero, than assumed"
+        "an actuator moves the outputs by a different gain, and from a different zero, than assumed"
     }
 
     fn site(&self) -> Site {

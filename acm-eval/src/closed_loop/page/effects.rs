@@ -74,7 +74,7 @@ fn overview(finding: &Finding) -> Markup {
     }
 }
 
-/// Writes a row for each effect that is in the model and is no claim.
+/// Writes a row for each minor effect.
 fn minor(finding: &Finding) -> Markup {
     let columns: [Column; 4] = [("Minor effect", true), ("Carried by", true), ("Size", false), ("Values", true)];
     let value =
@@ -92,8 +92,8 @@ fn minor(finding: &Finding) -> Markup {
     html! {
         h3 { "Minor effects" }
         p.note {
-            "They predict better beside the effects above, by too little to be named. They are part of the model, and \
-            no claim: each may stand for another cause of that size."
+            "The model predicts better with them, by too little to name them. Do not conclude from their names: each may \
+            stand for another cause of that size."
         }
         (table("minor", "Minor effects", &columns, &rows))
     }

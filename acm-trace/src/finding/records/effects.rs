@@ -53,7 +53,7 @@ impl FoundEffect {
     }
 }
 
-/// An effect of the model that is no claim: it predicts better beside those that are named, by too little to be named.
+/// A minor effect: the model predicts better with it, by too little to name it.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct MinorEffect {
     /// Stable name.

@@ -22,7 +22,7 @@ impl Effect for Backlash {
     }
 
     fn meaning(&self) -> &'static str {
-        "an actuator moves within a play before the arm follows"
+        "an actuator moves within a play before the outputs follow"
     }
 
     fn site(&self) -> Site {

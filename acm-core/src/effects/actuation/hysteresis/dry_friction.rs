@@ -24,7 +24,7 @@ impl Effect for DryFriction {
     }
 
     fn meaning(&self) -> &'static str {
-        "dry friction in the drive takes a fixed way from each actuator against its motion"
+        "dry friction in the drive shifts each actuator by a fixed amount against its motion"
     }
 
     fn site(&self) -> Site {

@@ -36,7 +36,7 @@ impl Effect for PrandtlIshlinskii {
     }
 
     fn meaning(&self) -> &'static str {
-        "an actuator loses way at each turning point, more the further it turns back"
+        "an actuator loses motion at each reversal, more the further it turns back"
     }
 
     fn site(&self) -> Site {

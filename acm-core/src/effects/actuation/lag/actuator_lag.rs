@@ -1,4 +1,4 @@
-//! First-order lag of the actuation: the arm follows its actuators as a low-pass filter does.
+//! First-order lag of the actuation: the outputs follow the actuators as a low-pass filter does.
 //!
 //! ```text
 //! τ dq̃/dt = q − q̃,   q̃(t_0) = q(t_0)
@@ -25,7 +25,7 @@ impl Effect for ActuatorLag {
     }
 
     fn meaning(&self) -> &'static str {
-        "the arm follows its actuators as a first-order lag"
+        "the outputs follow the actuators as a first-order lag"
     }
 
     fn site(&self) -> Site {

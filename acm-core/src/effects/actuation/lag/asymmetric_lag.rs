@@ -1,4 +1,4 @@
-//! Asymmetric lag of the actuation: the arm follows its actuators as a low-pass filter that is slower one way than the other, as what
+//! Asymmetric lag of the actuation: the outputs follow the actuators as a low-pass filter that is slower one way than the other, as what
 //! fills and vents, heats and cools, or extends and retracts.
 //!
 //! ```text
@@ -33,7 +33,7 @@ impl Effect for AsymmetricLag {
     }
 
     fn meaning(&self) -> &'static str {
-        "the arm follows its actuators as a lag that is slower one way than the other"
+        "the outputs follow the actuators as a lag that is slower one way than the other"
     }
 
     fn site(&self) -> Site {

@@ -1,4 +1,4 @@
-//! Coulomb damping: the arm follows its actuators as a mass on a spring that dry friction brakes, such as a pendulum in a dry bearing.
+//! Coulomb damping: the outputs follow the actuators as a mass on a spring with dry friction, such as a pendulum in a dry bearing.
 //!
 //! ```text
 //! z'' + 2ζω z' + ω² (s(z) + f z'/√(z'² + ν²ω²)) = ω² x,   x = (q − m)/h,   q̃ = m + h z,   ω = 2π/P,   at rest at t_0
@@ -48,7 +48,7 @@ impl Effect for CoulombDamping {
     }
 
     fn meaning(&self) -> &'static str {
-        "the arm follows its actuators as a mass on a spring that dry friction brakes"
+        "the outputs follow the actuators as a mass on a spring with dry friction"
     }
 
     fn site(&self) -> Site {

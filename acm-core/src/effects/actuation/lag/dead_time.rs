@@ -23,7 +23,7 @@ impl Effect for DeadTime {
     }
 
     fn meaning(&self) -> &'static str {
-        "the tip follows the actuators after a fixed delay"
+        "the outputs follow the actuators after a fixed delay"
     }
 
     fn site(&self) -> Site {

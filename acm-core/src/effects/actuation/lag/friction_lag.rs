@@ -34,7 +34,7 @@ impl Effect for FrictionLag {
     }
 
     fn meaning(&self) -> &'static str {
-        "the arm follows its actuators as a lag with dry friction, and rests near their zero"
+        "the outputs follow the actuators as a lag with dry friction, and rest near zero"
     }
 
     fn site(&self) -> Site {

@@ -1,4 +1,4 @@
-//! Nonlinear stiffness: the arm follows its actuators as a mass on a spring that hardens, or softens, as it goes out.
+//! Nonlinear stiffness: the outputs follow the actuators as a mass on a spring that hardens, or softens, as it goes out.
 //!
 //! ```text
 //! z'' + 2ζω z' + ω² s(z) = ω² x,   x = (q − m)/h,   q̃ = m + h z,   ω = 2π/P,   at rest at t_0
@@ -41,7 +41,7 @@ impl Effect for NonlinearStiffness {
     }
 
     fn meaning(&self) -> &'static str {
-        "the arm follows its actuators as a mass on a spring that hardens or softens"
+        "the outputs follow the actuators as a mass on a spring that hardens or softens"
     }
 
     fn site(&self) -> Site {

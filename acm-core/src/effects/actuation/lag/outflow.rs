@@ -35,7 +35,7 @@ impl Effect for Outflow {
     }
 
     fn meaning(&self) -> &'static str {
-        "a vessel fills by the actuators and empties through an orifice"
+        "the actuators fill a vessel that empties through an orifice"
     }
 
     fn site(&self) -> Site {

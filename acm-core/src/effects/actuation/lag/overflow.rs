@@ -38,7 +38,7 @@ impl Effect for Overflow {
     }
 
     fn meaning(&self) -> &'static str {
-        "a vessel fills by the actuators, empties through an orifice, and overflows"
+        "the actuators fill a vessel that empties through an orifice and overflows"
     }
 
     fn site(&self) -> Site {

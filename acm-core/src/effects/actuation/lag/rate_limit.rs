@@ -1,4 +1,4 @@
-//! Rate limit: what moves the arm follows each actuator at no more than a certain speed.
+//! Rate limit: the outputs follow each actuator at a limited speed.
 //!
 //! ```text
 //! dq̃_j/dt = dq_j/dt where q̃_j = q_j and |dq_j/dt| ≤ 1/s_j,   else sgn(q_j − q̃_j)/s_j
@@ -25,7 +25,7 @@ impl Effect for RateLimit {
     }
 
     fn meaning(&self) -> &'static str {
-        "the arm follows an actuator at no more than a certain speed"
+        "the outputs follow an actuator at a limited speed"
     }
 
     fn site(&self) -> Site {

@@ -1,4 +1,4 @@
-//! Second-order response of the actuation: the arm follows its actuators as a sprung mass does, and may overshoot.
+//! Second-order response of the actuation: the outputs follow the actuators as a sprung mass does, and may overshoot.
 //!
 //! ```text
 //! q̃'' + 2ζω q̃' + ω² q̃ = ω² q,   ω = 2π/P,   q̃(t_0) = q(t_0),   q̃'(t_0) = 0
@@ -27,7 +27,7 @@ impl Effect for SecondOrderLag {
     }
 
     fn meaning(&self) -> &'static str {
-        "the arm follows its actuators as a sprung mass, and may overshoot"
+        "the outputs follow the actuators as a sprung mass, and may overshoot"
     }
 
     fn site(&self) -> Site {

@@ -1,4 +1,4 @@
-//! Lag that depends on the state: the arm follows its actuators the slower, or the faster, the further out it is.
+//! Lag that depends on the state: the outputs follow the actuators the slower, or the faster, the further out they are.
 //!
 //! ```text
 //! τ(q̃) dq̃/dt = q − q̃,   τ = τ0 (ρ + (1 − ρ) (1 + κ z) (1 + |λ| z²)^{sgn λ}),   z = (q̃ − m)/h within −1 … 1,   q̃(t_0) = q(t_0)
@@ -38,7 +38,7 @@ impl Effect for StateDependentLag {
     }
 
     fn meaning(&self) -> &'static str {
-        "the arm follows its actuators as a lag whose time constant depends on where it is"
+        "the outputs follow the actuators as a lag whose time constant depends on the state"
     }
 
     fn site(&self) -> Site {
