@@ -10,7 +10,7 @@
 //! | `c`    | clock correction, s, 0 where there is none ([`crate::clock_corrected`])            |
 //! | `s`    | a prediction that came with the data; then p starts as g, a polynomial fitted to s |
 //!
-//! It predicts a whole trial at a time, since effects remember, or sample by sample ([`OnlineModel`]).
+//! It predicts a whole trial, since effects have memory, or sample by sample ([`OnlineModel`]).
 
 mod between;
 mod online;
@@ -139,15 +139,15 @@ impl AugmentedModel {
         self.stored.clock_correction.unwrap_or(0.0)
     }
 
-    /// Sets a clock correction, s, positive where the actuators' clock is late; 0 is none, and so is what is not
-    /// finite. Such a model predicts whole trials alone ([`OnlineModel::new`]).
+    /// Sets a clock correction, s, positive where the actuators' clock is late; 0 and non-finite values mean none.
+    /// Such a model predicts only whole trials ([`OnlineModel::new`]).
     #[must_use]
     pub fn with_clock_correction(mut self, c: f64) -> Self {
         self.stored.clock_correction = Some(c).filter(|c| c.is_finite() && *c != 0.0);
         self
     }
 
-    /// What the actuators do between samples.
+    /// Inter-sample behaviour of actuators.
     pub fn inter_sample(&self) -> InterSample {
         let of = |names: &[String]| -> Vec<usize> {
             let actuators = self.stored.rig.actuators.iter().enumerate();
@@ -160,7 +160,7 @@ impl AugmentedModel {
         }
     }
 
-    /// Sets what the actuators do between samples.
+    /// Sets the inter-sample behaviour of actuators.
     #[must_use]
     pub fn with_inter_sample(mut self, inter_sample: &InterSample) -> Self {
         let names: Vec<String> =
@@ -210,7 +210,7 @@ impl AugmentedModel {
         self.predict_between(&all, corresponding.as_ref()).select_rows(&rows)
     }
 
-    /// Outputs [T×M] of a record in which actuators are already as they are between samples ([`InterSample::of`]).
+    /// Outputs [T×M] of a record that already has the inter-sample values of actuators ([`InterSample::of`]).
     pub fn predict_between(&self, record: &Record, predicted: Option<&DMatrix<f64>>) -> DMatrix<f64> {
         let rows: Vec<usize> = (0..record.samples()).collect();
         let theta: Vec<&[f64]> = self.stored.effects.iter().map(|term| term.values.as_slice()).collect();
@@ -304,7 +304,7 @@ impl TryFrom<Stored> for AugmentedModel {
         for term in &stored.effects {
             pairs.push((Instance::restore(term, &stored.rig)?, term.clone()));
         }
-        // Within a site the file says what acts first; what measures acts last.
+        // Within a site the order is that of the file; output filters act last.
         pairs.sort_by_key(|(instance, _)| (instance.site(), instance.effect().traits().is_output_filter));
         let (instances, effects) = pairs.into_iter().unzip();
         stored.effects = effects;

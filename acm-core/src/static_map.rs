@@ -12,7 +12,7 @@
 //! | `h`      | [harmonics](Harmonic) of angles; most maps have none | H     | of the outputs |
 //! | `low`, `high` | range of each actuator in the trials that it is fitted to | A | SI |
 //!
-//! Outside of that range the polynomials keep their values at the border; behind the last kink the line goes on, and harmonics go on
+//! Outside that range the polynomials keep their border values; kinks continue linearly, and harmonics go on
 //! everywhere. Boyd (2001), Chebyshev and Fourier Spectral Methods, ch. 2.
 
 mod harmonic;

@@ -1,4 +1,4 @@
-//! What actuators do between samples, sample by sample: the sample that [`InterSample::of`] adds.
+//! Inter-sample behaviour in a stream: the sample that [`InterSample::of`] adds.
 
 use crate::effects::Record;
 use crate::recorded::inter_sample::{InterSample, QUARTIC, halfway, straight};
@@ -20,7 +20,7 @@ pub struct Between {
 }
 
 impl Between {
-    /// Nothing where all actuators go straight; `sample` has as many signals as the rig.
+    /// None if all are interpolated linearly; `sample` has as many signals as the rig.
     pub fn new(inter_sample: InterSample, sample: &Record) -> Option<Self> {
         let values = vec![[0.0; QUARTIC]; sample.actuators.len()];
         let of = || sample.clone();
@@ -34,7 +34,7 @@ impl Between {
         })
     }
 
-    /// The sample that goes in before `now`; none where none does.
+    /// The sample to insert before `now`, if any.
     pub fn added(&mut self, now: &Record) -> Option<&mut Record> {
         let (before, all) = (&self.before, &mut self.room);
         let jumps = |&a: &usize| now.actuators[a] != before.actuators[a];

@@ -1,10 +1,10 @@
 //! A nominal model with effects, evaluated sample by sample.
 //!
-//! | the answer to a sample is          | where                                                                   |
+//! | result at a sample                                     | condition                                           |
 //! | that of [`AugmentedModel::predict`] on the whole trial | no effect looks ahead                               |
-//! | that on a trial which ends there   | a rate of change would look ahead                                       |
+//! | that on a trial that ends there                        | an effect uses a rate of change                     |
 //!
-//! Nothing is allocated on the way, but by a dead time that meets more than a thousand samples a second.
+//! Steps allocate nothing, but for a dead time with more than a thousand samples a second.
 
 use thiserror::Error;
 
@@ -49,14 +49,14 @@ pub struct OnlineModel {
     out: Vec<f64>,
 }
 
-/// A model that a stream cannot give what it needs.
+/// A model that needs future samples of a stream.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[error(
     "the model reads its actuators {correction} s after their time stamps (clock correction), which a stream cannot; take \
      {correction} s off the actuators' time stamps before streaming, and make a model of data with these"
 )]
 pub struct NeedsFuture {
-    /// Clock correction of the model, s; negative where a stream would need future samples.
+    /// Clock correction of the model, s; positive where a stream would need future samples.
     pub correction: f64,
 }
 
@@ -121,7 +121,7 @@ impl OnlineModel {
         Ok(online)
     }
 
-    /// A first sample of zeros, so that effects take what memory they need.
+    /// A first sample of zeros, so that effects allocate their memory.
     fn take_memory(&mut self) {
         let zeros = |columns: &[Vec<f64>]| vec![0.0; columns.len()];
         let record = &self.record;
@@ -163,7 +163,7 @@ impl OnlineModel {
         self.pass(sample.predicted, out);
     }
 
-    /// Outputs at what the record holds.
+    /// Outputs at the recorded sample.
     fn pass(&mut self, predicted: &[f64], out: &mut [f64]) {
         self.q.iter_mut().zip(&self.record.actuators).for_each(|(q, recorded)| q[0] = recorded[0]);
         act(&mut self.effects, &self.record, &mut self.q, |site| site == Site::Actuation);
@@ -257,7 +257,7 @@ fn loads(site: Site) -> bool {
     matches!(site, Site::Load | Site::Marker)
 }
 
-/// The effects of these places, one after the other.
+/// Applies the effects of these sites in order.
 fn act(effects: &mut [Running], record: &Record, columns: &mut [Vec<f64>], at: impl Fn(Site) -> bool) {
     effects.iter_mut().filter(|effect| at(effect.site())).for_each(|effect| effect.proceed(record, columns));
 }

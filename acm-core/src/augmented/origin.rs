@@ -1,5 +1,5 @@
-//! What a saved model tells of the robot that it was made from, beside the signals of its [`crate::rig::Rig`]: enough to notice
-//! that it is given to another one.
+//! What a saved model records of its robot, beside the signals of its [`crate::rig::Rig`]: enough to detect that it is used on
+//! another one.
 
 use serde::{Deserialize, Serialize};
 
@@ -15,7 +15,7 @@ pub struct Origin {
     /// Specification of a continuum arm, beside its length and the direction of gravity.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub arm: Option<ArmShape>,
-    /// Trials that the model was held against: those that calibrate, or where there are none those of the development.
+    /// Trials that the model was evaluated on: the calibration trials, or the development trials where there are none.
     pub trials: Vec<String>,
     /// Root mean square error of the model on them, one for each output, SI.
     pub rms: Vec<f64>,

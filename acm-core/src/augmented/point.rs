@@ -1,4 +1,4 @@
-//! A nominal model with its static map at one sample after the other. All memory is taken at the beginning.
+//! A nominal model with its static map, sample by sample. All memory is allocated at the start.
 
 use crate::nominal::NominalModel;
 use crate::static_map::{MapScratch, StaticMap};

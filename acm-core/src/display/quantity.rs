@@ -82,7 +82,7 @@ pub fn decimals(value: f64, [low, high]: [f64; 2]) -> usize {
     shown.min(9)
 }
 
-/// The unit that a reader has a feeling for.
+/// The unit that readers know.
 fn familiar(unit: &str, largest: f64) -> Display {
     let small = largest < 1.0;
     let (of, rest) = unit.split_at(unit.find([' ', '/']).unwrap_or(unit.len()));

@@ -1,7 +1,7 @@
 //! Initial guesses of a fit: grids over what is not linear, scaled from the record.
 //!
-//! A linear parameter stands at its scale, since it is solved for. Where each actuator has a parameter of its own, all
-//! actuators are alike first; then, where they are two to six, each acts alone on a coarser grid and the others rest.
+//! A linear parameter is set to its scale, since it is solved for. Where each actuator has its own parameter, all are
+//! alike first; then, with two to six moving actuators, each acts alone on a coarser grid and the others are neutral.
 
 use super::actuation::actuators;
 use super::times::spread;
@@ -38,7 +38,7 @@ pub fn thinned<T: Clone>(grid: &[T], count: usize) -> Vec<T> {
     }
 }
 
-/// Sizes at `share` of their scales, linear ones at their scale, everything else at rest.
+/// Sizes at `share` of their scales, linear ones at their scale, all others neutral.
 pub fn guess(specs: &[ParameterSpec], share: f64) -> Vec<f64> {
     let of = |p: &ParameterSpec| match p.may_vary {
         true => p.inside(p.neutral + if p.linear { 1.0 } else { share } * p.scale),
@@ -54,7 +54,7 @@ pub fn guess_with(specs: &[ParameterSpec], share: f64, j: usize, value: f64) -> 
     guess
 }
 
-/// Who acts in a guess.
+/// Which actuators act.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Who {
     /// Every actuator.
@@ -91,8 +91,8 @@ pub fn sizes_of(specs: &[ParameterSpec], sizes: usize, who: Who, share: f64) -> 
     specs.iter().enumerate().map(of).collect()
 }
 
-/// The same as [`alike_then_alone`] where the first parameters are one size for each actuator: `size(j, point)`, within its bounds, for those that
-/// act, none for the others. What follows the sizes rests.
+/// [`alike_then_alone`] where the first parameters are one size for each actuator: `size(j, point)`, within its bounds, for those
+/// that act. All others are neutral.
 pub fn of_each<T: Clone>(
     rig: &Rig,
     specs: &[ParameterSpec],

@@ -13,7 +13,7 @@ pub struct Instance {
     origin: Origin,
     carrier: Carrier,
     context: Option<Carrier>,
-    /// Ends of the signal's range, where the line of the values over it is bowed.
+    /// Ends of the signal's range, where values are quadratic in the signal.
     ends: Option<[f64; 2]>,
     /// Of the effect alone.
     specs: Vec<ParameterSpec>,
@@ -42,7 +42,7 @@ pub struct Term {
     pub context: Option<Carrier>,
     /// θ, as an [`Instance`] orders them; SI.
     pub values: Vec<f64>,
-    /// Of an effect of one's own: all of it, so that the file needs no other.
+    /// Definition of an effect from a file; then no other file is needed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub definition: Option<Definition>,
 }
@@ -66,7 +66,7 @@ impl Instance {
         Self { origin, carrier, context: None, ends: None, parameters: specs.clone(), specs, varying: vec![] }
     }
 
-    /// Every effect in every way that it can act on this rig.
+    /// Every effect with each of its carriers on this rig.
     pub fn all(rig: &Rig) -> Vec<Instance> {
         let ways = |effect: &&'static dyn Effect| {
             let effect = *effect;
@@ -75,13 +75,13 @@ impl Instance {
         ALL.iter().flat_map(ways).collect()
     }
 
-    /// An effect of one's own in every way that it can act on its rig.
+    /// An effect of one's own with each of its carriers on its rig.
     pub fn all_own(effect: &Arc<Own>, rig: &Rig) -> Vec<Instance> {
         effect.carriers(rig).into_iter().map(|carrier| Instance::own(effect, carrier, rig)).collect()
     }
 
-    /// The same with θ = θ0 + θ1·c for each parameter that may vary; none where no parameter may, c does not move, or c is the signal
-    /// that carries the effect, unless that follows a context at every moment, which then bends.
+    /// The same with θ = θ0 + θ1·c for each parameter that may vary. None where no parameter may, c is constant, or c is the carrier;
+    /// but a static effect of a context may vary with its carrier, and is then quadratic in it.
     pub fn with_context(&self, context: Carrier, rig: &Rig) -> Option<Instance> {
         let signal = context.signal(rig)?;
         let free = |j: &usize| self.specs[*j].may_vary && self.specs[*j].is_free();
@@ -101,7 +101,7 @@ impl Instance {
         Some(Instance { context: Some(context), varying, parameters, ..self.clone() })
     }
 
-    /// The same with θ2 (c − a)(c − b) beside them, where a and b are the ends of the signal's range; none where nothing varies.
+    /// The same with θ2 (c − a)(c − b) added, where a and b are the ends of the signal's range; none without a context, or if added.
     pub fn with_bow(&self, rig: &Rig) -> Option<Instance> {
         let signal = self.context?.signal(rig)?;
         if self.is_bowed() {
@@ -118,7 +118,7 @@ impl Instance {
         Some(Instance { ends: Some([signal.low, signal.high]), parameters, ..self.clone() })
     }
 
-    /// Whether the line of its values over a signal is bowed.
+    /// Whether its values are quadratic in a signal.
     pub fn is_bowed(&self) -> bool {
         self.ends.is_some()
     }
@@ -170,7 +170,7 @@ impl Instance {
         self.origin.effect()
     }
 
-    /// Whether it is none of the library's.
+    /// Whether it is defined by a file.
     pub fn is_own(&self) -> bool {
         matches!(self.origin, Origin::Own(_))
     }
@@ -232,8 +232,8 @@ impl Instance {
         self.proceed(own, &slopes, record, &mut Memory::of_whole_trial(), columns);
     }
 
-    /// Acts on the next samples; `slopes` has one entry for each of the effect's `own` values, where a context changes them, and one more
-    /// for each where their line is bowed.
+    /// Acts on the next samples. With a context, `slopes` has one entry for each of the effect's `own` values, and a second one for
+    /// each where they are quadratic in it.
     fn proceed(&self, own: &[f64], slopes: &[f64], record: &Record, memory: &mut Memory, columns: &mut [Vec<f64>]) {
         let varying = |signal| {
             let (slope, bow) = slopes.split_at(own.len());
@@ -248,12 +248,12 @@ impl Instance {
         self.effect().proceed(self.carrier, values, record, memory, columns);
     }
 
-    /// Time in which an unknown state at the start fades, s.
+    /// Time constant of an unknown initial state, s.
     pub fn memory(&self, theta: &[f64]) -> Option<f64> {
         self.effect().memory(Values::constant(&self.specs, &theta[..self.specs.len()]))
     }
 
-    /// How the parts of that state fade, the slowest first.
+    /// Decay of each part of that state, slowest first.
     pub fn modes(&self, theta: &[f64]) -> impl Iterator<Item = Mode> + use<> {
         let values = Values::constant(&self.specs, &theta[..self.specs.len()]);
         let (effect, frequency) = (self.effect(), self.effect().swinging(values));
@@ -269,7 +269,7 @@ impl Instance {
     }
 }
 
-/// An effect with its values on its way through a trial, piece by piece.
+/// An effect with its values and its memory, for a trial in pieces.
 #[derive(Debug)]
 pub struct Running {
     instance: Instance,
@@ -279,7 +279,7 @@ pub struct Running {
 }
 
 impl Running {
-    /// Before the first sample; `theta` as [`Instance::act`] takes it.
+    /// State before the first sample; `theta` as in [`Instance::act`].
     pub fn new(instance: &Instance, theta: &[f64]) -> Self {
         let (own, slopes) = theta.split_at(instance.specs.len());
         let slopes = instance.all_slopes(slopes);
@@ -291,7 +291,7 @@ impl Running {
         self.instance.site()
     }
 
-    /// Acts on the next samples: after the first piece nothing is allocated for pieces that are no longer.
+    /// Acts on the next samples. After the first piece, pieces that are no longer allocate nothing.
     pub fn proceed(&mut self, record: &Record, columns: &mut [Vec<f64>]) {
         self.instance.proceed(&self.own, &self.slopes, record, &mut self.memory, columns);
     }
@@ -301,12 +301,12 @@ impl Running {
         self.memory.restart();
     }
 
-    /// What it remembers.
+    /// Its memory.
     pub fn memory(&self) -> &Memory {
         &self.memory
     }
 
-    /// Remembers what it remembered when this was taken from it ([`Running::memory`]).
+    /// Restores a memory that was taken from it ([`Running::memory`]).
     pub fn remember(&mut self, memory: &Memory) {
         self.memory.clone_from(memory);
     }

@@ -1,8 +1,8 @@
-//! What effects remember: operators on irregular time stamps, and where an effect keeps them between two pieces of a trial.
+//! Memory of effects: operators on irregular time stamps, and where an effect keeps them between two pieces of a trial.
 //!
-//! Signals are straight between samples. Each operator is a small state that takes one sample after the other, and exact at
-//! the samples: one more sample on a straight piece changes nothing at the others. Two lags that are not linear have no closed
-//! form ([`StiffLag`], [`VaryingLag`]) and come as close as their order; derivatives look ahead ([`Derivatives`], [`Slopes`]).
+//! Signals are linear between samples. Each operator is a small state that takes one sample after the other. It is exact at
+//! the samples: one more sample on a straight piece changes nothing at the others. Two nonlinear lags have no closed form
+//! ([`StiffLag`], [`VaryingLag`]): their error is that of their order. Derivatives look ahead ([`Derivatives`], [`Slopes`]).
 
 mod beside;
 mod delay;
@@ -33,11 +33,11 @@ pub use second_order_lag::{SecondOrderLag, Swing};
 pub use slopes::Slopes;
 pub use stiff_lag::{Friction, Spring, StiffLag};
 
-/// An operator, or whatever else an effect keeps: its default is rest, before any sample.
+/// State of an operator or an effect. Its default is rest, before any sample.
 ///
-/// A step that is taken back copies states with `clone_from`, which allocates nothing where there is room.
+/// Undoing a step copies states with `clone_from`, which allocates nothing where there is room.
 pub trait State: Clone + Debug + Default + Send + Sync + 'static {
-    /// Back to rest; what has room keeps it.
+    /// Back to rest; capacity is kept.
     fn restart(&mut self) {
         *self = Self::default();
     }
@@ -45,7 +45,7 @@ pub trait State: Clone + Debug + Default + Send + Sync + 'static {
 
 impl<S: State, const N: usize> State for [S; N] where [S; N]: Default {}
 
-/// What remembers nothing.
+/// No memory.
 impl State for () {}
 
 impl State for Vec<f64> {
@@ -56,7 +56,7 @@ impl State for Vec<f64> {
 
 /// What an effect keeps from one piece of a trial to the next; empty before the first.
 ///
-/// What it holds depends on the effect, which asks for states of its own kind. After the first piece nothing is allocated.
+/// The effect chooses the type of its states. After the first piece nothing is allocated.
 #[derive(Debug, Default)]
 pub struct Memory {
     states: Option<Box<dyn States>>,
@@ -88,7 +88,7 @@ impl Memory {
         self.states_and_column(count).0
     }
 
-    /// The same, and a column to work with, which holds anything.
+    /// The same, and a work column of any content.
     pub fn states_and_column<S: State>(&mut self, count: usize) -> (&mut [S], &mut Vec<f64>) {
         let states = self.states.get_or_insert_with(|| Box::new(Vec::<S>::new()));
         if !(**states).as_any().is::<Vec<S>>() {
@@ -109,7 +109,7 @@ impl Memory {
         &self.column
     }
 
-    /// Time of the first sample of the trial, s, in whose next piece the time stamps are `time`.
+    /// Time of the trial's first sample, s; `time` are the time stamps of its next piece.
     pub fn start(&mut self, time: &[f64]) -> f64 {
         let first = time.first().copied();
         *self.start.get_or_insert(first.unwrap_or(0.0))
@@ -128,7 +128,7 @@ impl Clone for Memory {
         }
     }
 
-    /// Allocates nothing where both are of one effect. The column to work with is none of the memory.
+    /// Allocates nothing where both are of one effect. The work column is not copied.
     fn clone_from(&mut self, other: &Self) {
         let alike = match (&mut self.states, &other.states) {
             (Some(own), Some(others)) => own.take_from((**others).as_any()),
@@ -184,18 +184,18 @@ pub struct Point {
 }
 
 impl Point {
-    /// Seconds since a point and the value there; none have passed where there is no point.
+    /// Seconds since a point and the value there; 0 s without a point.
     #[inline]
     fn since(before: Option<Point>, time: f64, x: f64) -> (f64, f64) {
         before.map_or((0.0, x), |before| (interval(before.time, time), before.x))
     }
 }
 
-/// Bits that an interval keeps less than a number has: it is off by 1.2e-10 of itself at most.
+/// Bits that are dropped from an interval; its relative error is 1.2e-10 at most.
 const DROPPED: u32 = 20;
 
-/// Seconds from one time stamp to the next. Those of a regular clock, which differ by rounding, are the same to the last bit: what depends on
-/// the interval alone need not be computed again.
+/// Seconds from one time stamp to the next. Intervals of a regular clock, which differ by rounding, become equal bit for bit:
+/// what depends on the interval alone is computed once.
 #[inline]
 fn interval(from: f64, to: f64) -> f64 {
     let half = 1u64 << (DROPPED - 1);

@@ -11,11 +11,11 @@
 //! | `F`    | effects of the frame in which markers are measured                | M = 3K, m          |
 //! | `O`    | effects of the output                                             | M, SI              |
 //!
-//! An effect sees a trial from its first sample on, as a whole or piece by piece ([`Effect::proceed`]), so that it may
-//! remember; it works on the time stamps as they are, and takes every signal as straight between two samples. What it makes
-//! of the last sample of a piece is what it would make of the end of a trial that ended there. At its neutral values it
-//! changes nothing. To add one: write a file with its equation, units and source in the module of its site, and list it in
-//! [`ALL`]; the contract test then walks it. Effects that a file defines are [`own`].
+//! An effect processes a trial from its first sample on, as a whole or piece by piece ([`Effect::proceed`]), and may have
+//! memory. It works on the original time stamps; signals are linearly interpolated between samples. At the last sample of
+//! a piece it gives the result of a trial that ends there. At its neutral values it changes nothing. To add an effect,
+//! write a file with its equation, units and source in the module of its site, and list it in [`ALL`]; the contract test
+//! then checks it. Effects that a file defines are [`own`].
 //!
 //! | module        | sites ([`Site`])                  |
 //! | ------------- | --------------------------------- |
@@ -122,7 +122,7 @@ pub enum Site {
     Output,
 }
 
-/// What carries an effect: an effect may act through one signal of several.
+/// The signal that an effect acts through, or the rig as a whole.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Carrier {
@@ -145,61 +145,61 @@ impl Carrier {
     }
 }
 
-/// How an unknown state at the start of a trial fades: e^{−t/τ}, or e^{−t/τ} cos ωt and e^{−t/τ} sin ωt.
+/// How an unknown initial state of a trial decays: e^{−t/τ}, or e^{−t/τ} cos ωt and e^{−t/τ} sin ωt.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Mode {
-    /// Time τ in which it fades, s.
+    /// Time constant τ, s.
     pub memory: f64,
-    /// Frequency ω at which it swings, rad/s; 0 where it does not.
+    /// Angular frequency ω, rad/s; 0 if it does not oscillate.
     pub frequency: f64,
 }
 
-/// What sets an effect apart from most others, for whoever looks for it or draws it.
+/// Properties of an effect that the search and the figures use.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Traits {
-    /// What it does is a function of the actuators at that moment: all that a nominal model misses at rest looks like it.
+    /// A function of the present sample: any static error of the nominal model may look like it.
     pub is_static: bool,
-    /// Rarely what a rig lacks, where a common effect explains as much.
+    /// Rare: a common effect is preferred where it explains as much.
     pub is_rare: bool,
-    /// Straight in the actuators: a calibration of the actuation takes it up where it acts in the calibration's trials.
+    /// Linear in the actuators: a calibration of the actuation absorbs it where it acts in the calibration trials.
     pub is_calibrated_away: bool,
     /// Its size may grow with an actuator, as friction does with a pressure.
     pub follows_pressure: bool,
-    /// One size for all trials, as an arm weighs what it weighs: no signal changes it.
+    /// One size for all trials, as the weight of an arm: no signal changes it.
     pub is_constant: bool,
-    /// A mass that is carried: it grows with the payload from nothing.
+    /// A carried mass: its size is proportional to the payload.
     pub is_carried: bool,
-    /// Periodic in its actuator: free where that has not been.
+    /// Periodic in its actuator: undetermined where unsampled.
     pub is_periodic: bool,
-    /// A resonance: the outputs turn within a few per cent of its period.
+    /// A resonance: sensitive to a few per cent of its period.
     pub is_resonance: bool,
     /// Slow, and begins anew with every trial.
     pub is_drift: bool,
     /// Best seen against the rate of its carrier.
     pub shows_against_rate: bool,
-    /// What it may change places with, as an effect on the actuators.
+    /// Which effects it commutes with, as an actuator effect.
     pub commutes: Commutes,
-    /// A linear filter of each output, with one set of values: on a sum of columns it does what it does to each.
+    /// A linear filter of each output, with one set of values: the columns of a sum may be filtered one by one.
     pub is_output_filter: bool,
-    /// A form that fits almost anything: what it explains, many causes may.
+    /// A form that fits almost anything: many causes may explain the same.
     pub is_generic: bool,
-    /// Several of it, with times or periods of their own, add up to one with more of them.
+    /// Several of it, each with its own time or period, act as one of higher order.
     pub repeats: bool,
-    /// The simpler effect that it takes the place of, with more parameters of the same names: where that one acts, it begins with
+    /// The simpler effect that it replaces. It has the same parameters and more; where the simpler effect acts, it starts from
     /// its values.
     pub refines: Option<&'static str>,
-    /// Another effect of the same kind that it may take the place of.
+    /// Another effect of the same kind that it may replace.
     pub replaces: Option<&'static str>,
 }
 
 impl Traits {
-    /// Returns whether it takes the place of this effect, with more parameters.
+    /// Returns whether it refines or replaces the effect `name`.
     pub fn takes_place_of(&self, name: &str) -> bool {
         [self.refines, self.replaces].contains(&Some(name))
     }
 }
 
-/// What an effect on the actuators acts alike before and behind of.
+/// Which effects an actuator effect commutes with.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Commutes {
     /// Nothing.
@@ -207,16 +207,16 @@ pub enum Commutes {
     No,
     /// Other linear filters.
     WithFilters,
-    /// Whatever does not change with time, as a delay does.
+    /// All time-invariant effects, as a delay does.
     WithAll,
 }
 
 /// One physical effect.
 pub trait Effect: Send + Sync {
-    /// Stable: other programs read it.
+    /// Stable name; programs read it.
     fn name(&self) -> &str;
 
-    /// In words, for a reader who does not know the name: `the outputs follow the actuators after a fixed delay`.
+    /// Meaning in words, for readers: `the outputs follow the actuators after a fixed delay`.
     fn meaning(&self) -> &str;
 
     /// Where it acts.
@@ -225,7 +225,7 @@ pub trait Effect: Send + Sync {
     /// Where the equation comes from.
     fn source(&self) -> &str;
 
-    /// What whoever looks for it must know of it.
+    /// Properties for search and figures.
     fn traits(&self) -> Traits {
         Traits::default()
     }
@@ -233,11 +233,11 @@ pub trait Effect: Send + Sync {
     /// The ways in which it can act on this rig; none where the rig lacks what it needs.
     fn carriers(&self, rig: &Rig) -> Vec<Carrier>;
 
-    /// Its parameters on this rig. What it must know of the rig to act is a parameter too ([`ParameterSpec::known`]).
+    /// Its parameters on this rig, with known values of the rig that it needs ([`ParameterSpec::known`]).
     fn parameters(&self, rig: &Rig, carrier: Carrier) -> Vec<ParameterSpec>;
 
-    /// Values to start a fit from, within the bounds, none of them neutral: grids scaled from the record. Linear parameters
-    /// stand at their scale.
+    /// Initial values of a fit, within the bounds and none neutral: grids scaled from the record. Linear parameters are at
+    /// their scale.
     fn initial_guesses(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>>;
 
     /// Acts on the next samples of a trial, in place on the columns of its site. `record`, `columns` and the context of
@@ -249,17 +249,17 @@ pub trait Effect: Send + Sync {
         self.proceed(carrier, values, record, &mut Memory::of_whole_trial(), columns);
     }
 
-    /// Time in which an unknown state at the start of a trial fades, s; none where nothing lasts.
+    /// Time constant with which an unknown initial state decays, s; none without memory.
     fn memory(&self, _values: Values) -> Option<f64> {
         None
     }
 
-    /// A shorter time in which another part of that state fades, s.
+    /// A shorter time constant, of another part of that state, s.
     fn second_memory(&self, _values: Values) -> Option<f64> {
         None
     }
 
-    /// Frequency at which an unknown state at the start swings while it fades, rad/s; 0 where it does not.
+    /// Angular frequency of an unknown initial state while it decays, rad/s; 0 without oscillation.
     fn swinging(&self, _values: Values) -> f64 {
         0.0
     }

@@ -1,13 +1,13 @@
-//! What second-order effects share: period and damping, the grid of both, and how long they ring.
+//! Shared by second-order effects: period and damping, the grid of both, and decay times.
 
 use std::f64::consts::TAU;
 
 use super::{ParameterSpec, Rig, times};
 
-/// Damping ratios to start from: a long ringing, an overshoot, hardly any, a slow approach.
+/// Initial damping ratios: long ringing, overshoot, hardly any overshoot, overdamped.
 const DAMPINGS: [f64; 4] = [0.06, 0.25, 0.7, 1.3];
 
-/// Natural period, silent at 0, and damping ratio. The period may be as long as a trial: two lags of τ in a row have one of 2πτ.
+/// Natural period, silent at 0, and damping ratio. The period may be as long as a trial: two lags of τ in series have 2πτ.
 pub fn parameters(rig: &Rig) -> Vec<ParameterSpec> {
     let period = times::size(rig, "period").within(0.0, times::trial(rig));
     vec![period, ParameterSpec::shape("damping", "1", 0.7, 0.3).within(0.01, 3.0)]
@@ -18,18 +18,18 @@ pub fn grid(rig: &Rig) -> Vec<Vec<f64>> {
     times::periods(rig).into_iter().flat_map(|period| DAMPINGS.map(|damping| vec![period, damping])).collect()
 }
 
-/// Time in which an unknown start fades, s: one over the real part of the slower pole.
+/// Decay time of an initial state, s: one over the real part of the slower pole.
 pub fn fading(period: f64, damping: f64) -> f64 {
     let apart = (damping * damping - 1.0).max(0.0).sqrt();
     period / (TAU * (damping - apart))
 }
 
-/// The same of the faster pole; none where both are as slow.
+/// The same of the faster pole; none where they are equal.
 pub fn fading_faster(period: f64, damping: f64) -> Option<f64> {
     (damping > 1.0).then(|| period / (TAU * (damping + (damping * damping - 1.0).sqrt())))
 }
 
-/// Frequency at which an unknown start swings while it fades, rad/s; 0 where it does not.
+/// Angular frequency of an initial state while it decays, rad/s; 0 without oscillation.
 pub fn swinging(period: f64, damping: f64) -> f64 {
     TAU / period * (1.0 - damping * damping).max(0.0).sqrt()
 }

@@ -1,6 +1,6 @@
 //! What is known of a parameter of an effect: its unit, its neutral value, its typical size, its bounds.
 
-/// How close to a bound a value rests on it, in typical sizes.
+/// Distance that counts as on a bound, in typical sizes.
 const AT_BOUND: f64 = 1e-3;
 
 /// So that the parameter of a signal that does not move still has a scale to divide by.
@@ -26,7 +26,7 @@ pub struct ParameterSpec {
     /// Whether the effect only adds to the outputs and in proportion to it, y_m += Σ_j θ_j φ_j(t; other parameters), with
     /// 0 as its neutral value. For θ1 of a context too.
     pub linear: bool,
-    /// Whether the lower bound, and the upper one, is a limit that a rig reaches, as tendons do that don’t stretch: a value may rest there.
+    /// Whether the lower and the upper bound are limits that rigs reach, as with inextensible tendons: a value may lie there.
     pub is_limit: [bool; 2],
 }
 
@@ -46,17 +46,17 @@ impl ParameterSpec {
         }
     }
 
-    /// The shape of an effect, such as a rate at which it fades: it rests at `value`, and does not vary with a context.
+    /// The shape of an effect, such as a decay rate: neutral at `value`, and does not vary with a context.
     pub fn shape(name: impl Into<String>, unit: impl Into<String>, value: f64, scale: f64) -> Self {
         Self { neutral: value, may_vary: false, ..Self::size(name, unit, scale) }
     }
 
-    /// What the effect must know of the rig and no fit may change: both bounds at `value`, so that a saved effect keeps it.
+    /// A known value of the rig that no fit may change: both bounds at `value`, so that a saved effect keeps it.
     pub fn known(name: impl Into<String>, unit: impl Into<String>, value: f64) -> Self {
         Self { lower: value, upper: value, ..Self::shape(name, unit, value, value.abs()) }
     }
 
-    /// Whether a fit may change it: a known value has both bounds at one place, and so has what an actuator at rest lacks.
+    /// Whether a fit may change it: a known value has equal bounds, and so has a size of an actuator at rest.
     pub fn is_free(&self) -> bool {
         self.lower < self.upper
     }
@@ -90,7 +90,7 @@ impl ParameterSpec {
         Self { is_limit: [self.is_limit[0], true], ..self }
     }
 
-    /// With bounds, which open to hold the neutral value where they would not.
+    /// With bounds, extended to include the neutral value.
     pub fn within(self, lower: f64, upper: f64) -> Self {
         Self { lower: lower.min(self.neutral), upper: upper.max(self.neutral), ..self }
     }

@@ -1,4 +1,4 @@
-//! Times that a recording can tell: from its sampling step to a third of its longest trial.
+//! Times that a recording resolves: from its sampling step to a third of its longest trial.
 //!
 //! | what            | from       | to       |
 //! | bounds          | Δt/5       | T/3      |
@@ -9,8 +9,8 @@
 //! | bounds of windows | 0        | T/25     |
 //! | grid of windows | 4 Δt       | T/25     |
 //!
-//! `Δt` is the median time between samples and `T` the longest trial, both s ([`Rig`]). What is faster than Δt/5 leaves no
-//! trace between two samples; of what is slower than T/3 too little is seen to tell it from a drift.
+//! `Δt` is the median time between samples and `T` the longest trial, both s ([`Rig`]). Anything faster than Δt/5 leaves no
+//! trace between two samples; anything slower than T/3 cannot be told from a drift.
 
 use super::{ParameterSpec, Rig};
 
@@ -50,7 +50,7 @@ pub fn shortest(rig: &Rig) -> f64 {
     0.2 * step(rig)
 }
 
-/// Longest time constant that a trial tells, s.
+/// Longest resolvable time constant, s.
 pub fn longest(rig: &Rig) -> f64 {
     trial(rig) / 3.0
 }
@@ -102,7 +102,7 @@ pub fn windows(rig: &Rig) -> Vec<f64> {
     if narrowest < widest { spread(narrowest, widest, WINDOWS) } else { vec![widest] }
 }
 
-/// A 25th of the trial: what a quartic smoothes away in more is the motion itself.
+/// A 25th of the trial: a quartic in a wider window smooths the motion itself.
 fn widest(rig: &Rig) -> f64 {
     trial(rig) / 25.0
 }

@@ -77,7 +77,7 @@ pub(super) fn bend<const N: usize>(
     }
 }
 
-/// ∫ d_i·M ds of each load along d_1 and d_2; that of k, since the part of M along the arm is across neither.
+/// ∫ d_i·M ds of each load along d_1 and d_2; that of k, since M along the arm is normal to both.
 pub(super) fn bending<const N: usize>(halves: &[f64], places: &[Place], nodes: &[Node<N>]) -> [[f64; ACROSS]; N] {
     let mut sum = [[0.0; ACROSS]; N];
     for (panel, &half) in halves.iter().enumerate() {

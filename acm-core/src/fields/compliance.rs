@@ -16,10 +16,10 @@
 //! | `d_i`  | axes of the disk at s, across the arm                                       | 1     |
 //! | `u_m`  | displacement of marker m, in the measurement frame                          | m     |
 //!
-//! Tendons that run along the arm at one distance are as long as its mean bending makes them, so they answer a load with
-//! one moment for the whole arm, against the mean: the arm bends by k − c k̄ and its markers move by u − c ū. The share
-//! c is 0 without tendons, κ/(EI + κ) for elastic ones that give the arm a bending stiffness κ, and 1 where they don't
-//! stretch. Rucker & Webster (2011), IEEE T-RO 27(6), for tendons that act as a moment along the arm.
+//! Tendons at one distance along the arm change length with its mean bending, so they resist a load with one moment for the
+//! whole arm, against the mean: the arm bends by k − c k̄ and its markers move by u − c ū. The share c is 0 without tendons,
+//! κ/(EI + κ) for elastic ones that give the arm a bending stiffness κ, and 1 where they don't stretch.
+//! Rucker & Webster (2011), IEEE T-RO 27(6), for tendons that act as a moment along the arm.
 //!
 //! All of it is linear in the loads, so that loads which act together are added up before they bend the arm.
 //!
@@ -40,7 +40,7 @@ use crate::tip_model::{self, StrainModel};
 /// Panels over the whole arm, where no marker or border asks for more.
 const PANELS: usize = 8;
 
-/// Loads: each has a field of the free beam, and then each one that is held; the marker follows.
+/// Loads: each has a free field, and then each has a held one; the marker fields follow.
 const LOADS: usize = Load::ALL.len();
 
 /// Precomputed values that all samples of one arm share.
@@ -224,7 +224,7 @@ impl FieldModel {
     }
 }
 
-/// Ends of panels in order: base, borders, markers, tip, and what divides the stretches between them.
+/// Ends of panels in order: base, borders, markers, tip, and divisions between them.
 fn places(borders: &[f64], at: &[f64]) -> Vec<f64> {
     let mut fixed: Vec<f64> = [0.0, 1.0].iter().chain(borders).chain(at).copied().collect();
     fixed.sort_by(f64::total_cmp);

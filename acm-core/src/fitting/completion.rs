@@ -10,9 +10,9 @@
 //! | `q'`, `p'` | the same of further trials, which may show what the model lacks | N' × A, N' × 3K |
 //! | `ω` | weight of a further trial, [`FURTHER`] | 1 |
 //!
-//! An actuator that the calibration holds at n values leaves one direction of a polynomial of degree n open: that which vanishes at all
-//! of them. There the further trials decide. Where the calibration says anything, it outweighs them. Beyond it the markers of the calibrated
-//! model may be too far off for a descent; a calibration to all trials alike is another start.
+//! An actuator that the calibration holds at n values leaves one direction of a polynomial of degree n open: the one that is zero
+//! at all of them. The further trials determine it. Where the calibration has data, it outweighs them. Outside, the markers of the
+//! calibrated model may be too far off for a descent; a calibration to all trials alike is another start.
 
 use std::iter;
 
@@ -25,12 +25,12 @@ use crate::fitting::observations::Observations;
 use crate::fitting::strain_fit::StrainFit;
 use crate::tip_model::StrainModel;
 
-/// Weight of further trials: with an error ten times that of the calibration they say as much as it does. On development seeds (14002 and
+/// Weight of further trials: with ten times the error of the calibration they count as much. On development seeds (14002 and
 /// 14005, several causes, paper) a tenth and ten times of it find a start as good, and up to two causes more or less.
 pub const FURTHER: f64 = 1e-2;
 
-/// Returns the model with its parameters fitted to its calibration, and to further trials with the weight [`FURTHER`]. The fit begins from
-/// the model, and from `other` where that is given; the better end counts.
+/// Returns the model with its parameters fitted to its calibration, and to further trials with the weight [`FURTHER`]. The fit
+/// starts from the model, and from `other` where given; the better result is kept.
 ///
 /// # Panics
 /// Where actuators or markers of the two are not those of the model.

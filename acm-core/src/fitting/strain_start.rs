@@ -18,7 +18,7 @@ use crate::tip_model::StrainModel;
 /// Share of the samples that count as near rest.
 const NEAR_REST: usize = 50;
 
-/// Beyond this angle between the markers at rest and the axis, the markers are not believed, rad.
+/// Angle between the markers at rest and the axis beyond which the markers are ignored, rad.
 const LARGEST_TILT: f64 = std::f64::consts::FRAC_PI_3;
 
 /// The model with the start's parameters; θ_s is left at zero.

@@ -21,7 +21,7 @@ use pulp::{Arch, Simd, WithSimd};
 /// Parts of a sum: enough for four of the widest registers, so that no addition waits for the one before.
 const PARTS: usize = 32;
 
-/// Those of them that rows left over go to.
+/// Parts for the rows left over.
 const FEW: usize = 8;
 
 /// Rows that are reduced at a time: they and T stay in the nearest cache.

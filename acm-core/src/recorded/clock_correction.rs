@@ -7,9 +7,9 @@
 //! | symbol | meaning                                                              | unit |
 //! | `c`    | correction; positive where the actuators' clock is late              | s    |
 //!
-//! Actuators are linearly interpolated and held at the ends of the record; their rates of change follow from what comes out.
-//! It is a property of the recording and none of the robot: a positive one reads ahead, which nothing physical does, so it
-//! is no effect. Ljung (1999), System Identification, 2nd ed., ch. 14: preprocessing data.
+//! Actuators are linearly interpolated and held at the ends of the record; rates of change are computed from the result.
+//! It is a property of the recording, not of the robot: a positive one reads ahead, which no physical effect does.
+//! Ljung (1999), System Identification, 2nd ed., ch. 14: preprocessing data.
 
 use crate::effects::memory::DelayLine;
 use crate::recorded::record::Record;

@@ -1,4 +1,4 @@
-//! Derivatives of a signal, as far as the record lets them be known: of a whole record, or of a piece of a stream.
+//! Derivatives of a signal: of a whole record, or of a piece of a stream.
 
 use std::ops::Deref;
 use std::sync::Arc;
@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::record::Record;
 use crate::effects::memory::{Derivative, Derivatives};
 
-/// Window of a stream, in those of a whole record: it fits a parabola, as it knows the past only.
+/// Window of a stream over that of a whole record: it fits a parabola, with past samples only.
 const PAST: f64 = 0.5;
 
 /// Derivatives at each sample.
@@ -29,8 +29,8 @@ impl Deref for Found<'_> {
 }
 
 impl Record {
-    /// Returns the derivatives of a signal: of a whole record by quartics through windows of half a width of `window`, s; of a piece of a
-    /// `stream` by parabolas through half of them.
+    /// Returns the derivatives of a signal: of a whole record by quartics with half windows of `window`, s; of a piece of a `stream` by
+    /// parabolas with half of these.
     pub fn derivatives<'m>(&self, signal: &[f64], window: f64, stream: Option<&'m mut Derivatives>) -> Found<'m> {
         match stream {
             None => Found::Whole(self.derived.of(&self.time, signal, window)),

@@ -1,6 +1,6 @@
-//! Derivatives of a record's signals, as far as they were asked for: a search asks for the same ones many times.
+//! Cache of a record's derivatives: a search requests the same ones many times.
 //!
-//! They are kept by a hash of time stamps and signal, so that a record whose signals are changed has others.
+//! Keys are the window and a hash of time stamps and signal, so that a changed signal has other ones.
 
 use std::hash::{BuildHasher, Hasher};
 use std::sync::Arc;
@@ -14,10 +14,10 @@ use crate::effects::memory::{Derivative, Derivatives};
 /// Limit of kept derivatives of one record, 24 bytes each. Those of a longer record are not kept.
 const MOST: u64 = 400_000;
 
-/// Signals and windows that there is room for from the start: so few that they are kept in one piece, which has room for long ones.
+/// Expected entries: so few that the cache is kept in one piece, which has room for long ones.
 const EXPECTED: usize = 16;
 
-/// See the head of this file. A copy of a record begins without.
+/// See the head of this file. A copy of a record starts empty.
 #[derive(Debug)]
 pub struct Derived(Cache<(u64, u64), Arc<Vec<Derivative>>, Length>);
 
@@ -56,7 +56,7 @@ impl Clone for Derived {
     }
 }
 
-/// What is kept makes no difference.
+/// Cache content is ignored.
 impl PartialEq for Derived {
     fn eq(&self, _: &Self) -> bool {
         true

@@ -1,4 +1,4 @@
-//! What actuators do between samples.
+//! Inter-sample behaviour of actuators.
 //!
 //! ```text
 //! straight   q(t) = q_{k−1} + (q_k − q_{k−1}) (t − t_{k−1}) / h_k
@@ -12,7 +12,7 @@
 //! * quartic: halfway, at q(t_k − h_k/2). Samples from before a step that is more than [`UNEVEN`] times longer or shorter than the next do
 //!   not count; with fewer samples the degree falls. Nothing ahead of t_k is needed, so a stream has the same values.
 //!
-//! Halfway between the samples of a sine, of six in a period, the straight line misses 13 % of it and the quartic 3 %; of ten, 5 and 0.25 %.
+//! Halfway between samples of a sine, linear interpolation errs by 13 % and the quartic by 3 % at six a period; at ten, by 5 and 0.25 %.
 //!
 //! Other signals are interpolated there. Rates of change are those at the jump, or halfway between two samples.
 //!
@@ -25,16 +25,16 @@ use super::record::Record;
 /// slope of the jump loses no digits that matter.
 pub const AHEAD: f64 = 1e-3;
 
-/// Largest ratio of two steps that a quartic goes over.
+/// Largest ratio of two steps within a quartic.
 pub const UNEVEN: f64 = 2.0;
 
 /// Number of samples that a quartic goes through.
 pub const QUARTIC: usize = 5;
 
-/// What actuators do between samples. Those that are not listed go straight.
+/// Actuators between samples; those not listed are interpolated linearly.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub enum InterSample {
-    /// All go straight.
+    /// All are linear.
     #[default]
     Straight,
     /// These are held.
@@ -44,7 +44,7 @@ pub enum InterSample {
 }
 
 impl InterSample {
-    /// Actuators that do not go straight.
+    /// Actuators held or quartic.
     pub fn actuators(&self) -> &[usize] {
         match self {
             Self::Straight => &[],
@@ -57,7 +57,7 @@ impl InterSample {
         if matches!(self, Self::Quartic(_)) { 0.5 } else { AHEAD }
     }
 
-    /// The record with the samples that are added, and the row of each of its own.
+    /// The record with the added samples, and the row of each original one.
     pub fn of(&self, record: &Record) -> (Record, Vec<usize>) {
         let with_added = |t: usize| {
             let jumps = |&a: &usize| record.actuators[a][t] != record.actuators[a][t - 1];

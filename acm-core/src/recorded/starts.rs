@@ -1,17 +1,17 @@
-//! What actuators did ahead of the first sample of a record.
+//! Actuators before the first sample of a record.
 
 use super::inter_sample::AHEAD;
 use super::record::Record;
 
-/// The record with its actuators at rest at these values ahead of the first sample, by [`AHEAD`] of the time to the second: the states
-/// of effects begin there.
+/// The record with its actuators at rest at `rest` before the first sample, by [`AHEAD`] of the time to the second: states of
+/// effects begin there.
 pub fn resting(record: &Record, rest: &[f64]) -> Record {
     let ahead = if record.samples() > 1 { AHEAD * (record.time[1] - record.time[0]) } else { AHEAD };
     with_first(record, record.time[0] - ahead, rest)
 }
 
-/// The record with its actuators at rest at their first values, and a turning point at these ahead of the first sample: effects that
-/// remember no time, as friction does, begin there, and lags at rest.
+/// The record with its actuators at rest at their first values, and then a reversal at `turn` before the first sample:
+/// rate-independent effects, such as friction, begin there, and lags at rest.
 pub fn turning(record: &Record, turn: &[f64]) -> Record {
     let first: Vec<f64> = record.actuators.iter().map(|q| q[0]).collect();
     let turned = resting(record, turn);

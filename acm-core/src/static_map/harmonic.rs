@@ -1,4 +1,4 @@
-//! A term of sums of angles: what kinematics and gravity of revolute joints are made of.
+//! A harmonic of sums of angles, as in the kinematics and gravity of revolute joints.
 //!
 //! ```text
 //! h_o(q) = a_o cos(n·q) + b_o sin(n·q),   n_j = −1, 0, 1

@@ -1,4 +1,4 @@
-//! What effects of the actuation share: one size for each actuator.
+//! Shared by effects of the actuation: one size for each actuator.
 //!
 //! An actuator that does not move gets a size between 0 and 0, which no fit can change.
 
@@ -17,10 +17,10 @@ pub fn moving(rig: &Rig) -> Vec<Carrier> {
     if rig.actuators.iter().any(Signal::varies) { vec![Carrier::Rig] } else { vec![] }
 }
 
-/// Most actuators of which one may act by itself.
+/// Most moving actuators that may act alone.
 const FEW: usize = 3;
 
-/// The rig as a whole where any actuator moves; and where a few do, and bend no arm, each of them.
+/// The rig as a whole where any actuator moves; with few of them and no arm, each of them too.
 pub fn together_or_alone(rig: &Rig) -> Vec<Carrier> {
     let alone: Vec<Carrier> =
         rig.actuators.iter().enumerate().filter(|(_, q)| q.varies()).map(|(j, _)| Carrier::Actuator(j)).collect();
@@ -74,8 +74,8 @@ pub fn ends(rig: &Rig) -> impl Iterator<Item = ParameterSpec> + '_ {
     high.chain(rig.actuators.iter().map(move |q| known("low", q, q.low)))
 }
 
-/// Passes each actuator that has a range through a state of its own; `step` takes the sample's index and x, the actuator in half ranges
-/// from the middle, and returns what takes its place. [`ends`] follow the first `own` parameters.
+/// Passes each actuator that has a range through its own state. `step` takes the sample's index and x, the actuator in half ranges
+/// from the middle, and returns its replacement. [`ends`] follow the first `own` parameters.
 pub fn pass_in_range<'c, S>(
     values: Values,
     own: usize,
@@ -89,7 +89,7 @@ pub fn pass_in_range<'c, S>(
         is_range(middle, half).then_some((middle, half, q, state))
     };
     let mut passing: Vec<_> = columns.iter_mut().zip(states).enumerate().filter_map(with_range).collect();
-    // Sample by sample: steps of one column wait for one another, and those of several go on meanwhile.
+    // Sample by sample: steps of one column depend on each other, those of several columns overlap.
     for t in 0..passing.first().map_or(0, |(_, _, q, _)| q.len()) {
         for (middle, half, q, state) in &mut passing {
             if let Some(q) = q.get_mut(t) {

@@ -16,13 +16,13 @@ use crate::rig::Signal;
 /// See the head of this file.
 pub struct Coupling;
 
-/// Who takes from whom, in the order of the parameters.
+/// Coupled pairs, in the order of the parameters.
 fn pairs(count: usize, carrier: Carrier) -> impl Iterator<Item = (usize, usize)> {
     let takes = move |i: &usize| carrier == Carrier::Rig || carrier == Carrier::Actuator(*i);
     (0..count).filter(takes).flat_map(move |i| (0..count).filter(move |&j| j != i).map(move |j| (i, j)))
 }
 
-/// What `to` takes of `from`, in relation to their travels.
+/// Share of `from` in `to`, scaled by their travels.
 fn share(to: &Signal, from: &Signal) -> ParameterSpec {
     let unit = if to.unit == from.unit { "1".into() } else { format!("{}/({})", to.unit, from.unit) };
     let whole = if to.varies() && from.varies() { to.span() / from.span() } else { 0.0 };

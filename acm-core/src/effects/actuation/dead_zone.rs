@@ -1,4 +1,4 @@
-//! Dead zone: nothing follows an actuator near its rest, until it has taken up slack or a threshold.
+//! Dead zone: an actuator has no effect near its rest, until slack or a threshold is overcome.
 //!
 //! ```text
 //! q̃_j = z_j + c(q_j − z_j − w_j) − c(z_j − q_j − w_j),   c(d) = max(0, d) with a corner of the radius r w_j ([`super::corner`])
@@ -9,9 +9,9 @@
 //! | `r`    | roundness of both ends; 0 for sharp ones    | 1               |
 //! | `z_j`  | rest; 0 for actuators that come to zero     | of the actuator |
 //!
-//! A command of 0 to 10 V, or of 1 to 2 ms, rests within its range; without an arm such actuators have a dead zone too.
+//! Commands of 0 to 10 V, or of 1 to 2 ms, rest within their range; without an arm these have a dead zone too.
 //!
-//! No memory: unlike backlash it lies at one place. Khalil (2002), Nonlinear Systems, 3rd ed., 1.2.
+//! No memory: unlike backlash it is fixed in place. Khalil (2002), Nonlinear Systems, 3rd ed., 1.2.
 
 use super::actuators::crosses_zero;
 use super::{actuators, corner};
@@ -21,7 +21,7 @@ use crate::rig::Signal;
 /// See the head of this file.
 pub struct DeadZone;
 
-/// Whether an actuator comes to its rest: to zero, or where nothing says that zero is its rest, anywhere in its range.
+/// Whether an actuator can rest: at zero, or without an arm anywhere in its range.
 fn rests(rig: &Rig, q: &Signal) -> bool {
     crosses_zero(q) || q.varies() && rig.arm.is_none()
 }

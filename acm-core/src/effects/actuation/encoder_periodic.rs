@@ -8,9 +8,9 @@
 //! | `a`, `b` | the error, in phase and out of it          | of the actuator   |
 //! | `N`      | periods per unit of the actuator           | 1 / of the actuator |
 //!
-//! From three periods to twenty over the travel: what bends more slowly is a matter of the calibration. The misfit has a
-//! valley for each `N`, so guesses are close together there. An angle that turns many times, such as that of a motor on a harmonic
-//! drive, has its errors at whole or half numbers of periods per turn: guesses lie there exactly, and the bounds hold them.
+//! Three to twenty periods over the travel; slower errors are left to the calibration. The misfit has a local minimum for each
+//! `N`, so guesses are close together. An angle that turns many times, such as that of a motor on a harmonic drive, has errors at
+//! whole or half numbers of periods per turn; guesses lie there exactly, and the bounds include them.
 //! Heydemann (1981), Applied Optics 20(19); Tuttle (1992), Understanding and modeling the behavior of a harmonic drive gear
 //! transmission, MIT Artificial Intelligence Laboratory.
 
@@ -91,7 +91,7 @@ impl Effect for EncoderPeriodic {
     }
 }
 
-/// Whether it turns, so that what errs with it does so alike in every turn.
+/// Whether it is an angle, whose errors repeat in every turn.
 fn is_angle(q: &Signal) -> bool {
     q.unit == "rad"
 }

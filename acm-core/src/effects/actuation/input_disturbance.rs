@@ -10,7 +10,7 @@
 //! | `c`    | context signal                                                                  | its own                  |
 //! | `c_0`  | middle of its range: what it does there, the nominal model has already          | of the signal            |
 //!
-//! Lags, creep and hysteresis of the actuators act on the sum, where `context_term` adds behind them. Åström & Hägglund (2006),
+//! Lags, creep and hysteresis of the actuators act on the sum; `context_term` adds after them. Åström & Hägglund (2006),
 //! Advanced PID Control, ch. 4: load disturbances enter at the process input.
 
 use super::actuators;
@@ -21,10 +21,10 @@ use crate::rig::Signal;
 /// See the head of this file.
 pub struct InputDisturbance;
 
-/// Most actuators of a rig that it is sought on.
+/// Most moving actuators of a rig with it.
 const FEW: usize = 3;
 
-/// Typical and largest size, as what the signal's range is worth in ranges of the actuator.
+/// Typical and largest effect of the signal's range, in ranges of the actuator.
 const SHARES: (f64, f64) = (0.1, 10.0);
 
 impl Effect for InputDisturbance {

@@ -10,7 +10,7 @@
 //! | `c`    | context signal                                                                  | its own               |
 //! | `c_0`  | middle of its range: what the gain is there, the nominal model has already      | of the signal         |
 //!
-//! Lags, friction and hysteresis of the actuators act on the product, where `context_gain` multiplies behind them. Mohan, Undeland &
+//! Lags, friction and hysteresis of the actuators act on the product; `context_gain` multiplies after them. Mohan, Undeland &
 //! Robbins (2003), Power Electronics, ch. 7: the mean voltage of a switched bridge is the duty times the voltage of its supply.
 
 use crate::effects::output::carrying;

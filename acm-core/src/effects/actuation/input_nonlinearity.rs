@@ -1,4 +1,4 @@
-//! Nonlinearity of the input: what drives the dynamics is a bent function of each actuator (Hammerstein).
+//! Input nonlinearity (Hammerstein): the dynamics are driven by a nonlinear function of each actuator.
 //!
 //! ```text
 //! q̃_j = q_j + h_j (a_j (z² − 1) + b_j (z³ − z)),   z = (q_j − m_j)/h_j
@@ -8,10 +8,10 @@
 //! | `a_j, b_j`   | even and odd bend, −0.6 to 0.6 and −0.15 to 0.6 | 1               |
 //! | `m_j`, `h_j` | middle of the recorded range, half its width   | of the actuator |
 //!
-//! The ends of the range stay where they are. A square from 0 on, as the power of a heater is of its voltage, or the thrust of a rotor
-//! of its speed, has a = 1/2: its slope 1 + 2a z + b (3z² − 1) is 0 at one end. Between −0.3 and 0.3 the map rises everywhere, and within
-//! the bounds it falls in the outer part of one half of the range at most. Beyond the range it goes on straight. Before all lags, so
-//! that no map behind them stands for it. Narendra & Gallman (1966), IEEE Trans. Automatic Control 11(3).
+//! The ends of the range are fixed. A square from 0 on, such as heater power over voltage or rotor thrust over speed, has a = 1/2: its
+//! slope 1 + 2a z + b (3z² − 1) is 0 at one end. Between −0.3 and 0.3 the map is increasing; within the bounds it decreases in the
+//! outer part of one half of the range at most. Beyond the range it is linear. It acts before all lags, so that no map after them
+//! replaces it. Narendra & Gallman (1966), IEEE Trans. Automatic Control 11(3).
 
 use super::actuators;
 use crate::effects::guesses::{self, Who};
@@ -20,7 +20,7 @@ use crate::effects::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, 
 /// See the head of this file.
 pub struct InputNonlinearity;
 
-/// Bends to start from, even and odd.
+/// Initial values of a and b.
 const BENDS: [[f64; 2]; 6] = [[0.15, 0.0], [-0.15, 0.0], [0.45, 0.0], [-0.45, 0.0], [0.0, 0.2], [0.0, -0.1]];
 
 impl Effect for InputNonlinearity {

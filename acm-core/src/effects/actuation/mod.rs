@@ -1,4 +1,4 @@
-//! Effects of the actuation: what reaches the arm of what the actuators report.
+//! Effects of the actuation, between the reported actuators and the arm.
 //!
 //! Drift, gain and nonlinearity are here; play, friction and hysteresis are in [`hysteresis`], delays and lags in [`lag`].
 

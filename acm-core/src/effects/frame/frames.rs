@@ -1,4 +1,4 @@
-//! What effects on the frame of measurement share: who has one, and how a rigid motion acts on columns x, y, z.
+//! Shared by frame effects: which rigs have a measurement frame, and how rigid motions act on columns x, y, z.
 
 use nalgebra::Vector3;
 
@@ -22,7 +22,7 @@ pub fn reach(rig: &Rig) -> f64 {
     if reach > 0.0 { reach } else { 1.0 }
 }
 
-/// Replaces every marker at every sample by what `motion` makes of it.
+/// Applies `motion` to every marker at every sample.
 pub fn each(columns: &mut [Vec<f64>], motion: impl Fn(usize, Vector3<f64>) -> Vector3<f64>) {
     for marker in columns.chunks_exact_mut(3) {
         let [x, y, z] = marker else { continue };

@@ -1,4 +1,4 @@
-//! What effects on an arm share: typical sizes of the loads that bend it.
+//! Shared by effects on an arm: typical sizes of the loads that bend it.
 //!
 //! A force F at the tip moves it by F L³/3EI, and a load w along the arm by w L⁴/8EI. A typical load, acting
 //! across a straight arm, moves the tip by a twentieth of the length. A load may be much larger where it acts nearly along
@@ -12,7 +12,7 @@
 //! | `w_f`  | load over stiffness                                                                 | of its field |
 //! | `c`    | share of the mean bending that tendons hold: 0 without, near 1 where they are stiff | 1            |
 //!
-//! The equation of what is held stands with [`crate::fields::FieldModel`].
+//! The equation of the held part is in [`crate::fields::FieldModel`].
 
 use crate::effects::{Carrier, ParameterSpec, Rig, guesses};
 use crate::fields::{Field, Load};

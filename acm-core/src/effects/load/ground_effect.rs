@@ -1,4 +1,4 @@
-//! Ground effect: near the ground the rotors' flow along the arm is another one.
+//! Ground effect: near the ground the rotors' flow along the arm changes.
 //!
 //! ```text
 //! g = b u exp(−max(h, 0)/h_0),   w_wash = g (1 − d),   w_near = g d,   free = w,   held = −c w

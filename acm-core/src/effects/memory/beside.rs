@@ -1,5 +1,5 @@
-//! Columns with the same time stamps that pass through one linear filter, side by side: a step is computed once for all, and several
-//! columns go through it together.
+//! Columns with the same time stamps that pass through one linear filter: a step is computed once for all, and applied to several
+//! columns at a time.
 
 use super::{Last, Point, State, interval};
 
@@ -16,7 +16,7 @@ pub trait Beside: State + Copy {
     /// A step: what it does to any signal.
     type Stride: Copy + Default;
 
-    /// The step over an interval `h` in s; none has passed at the first sample.
+    /// The step over an interval `h` in s; 0 at the first sample.
     fn stride(h: f64, shape: Self::Shape) -> Self::Stride;
 
     /// The filtered signal after the step, from the signal at both ends of it.
@@ -51,7 +51,7 @@ pub fn pass<F: Beside>(lags: &mut [F], time: &[f64], shape: impl Fn(usize) -> F:
     }
 }
 
-/// Passes `N` columns through steps that begin at a sample and end at a time.
+/// Passes `N` columns through steps from sample `first` to time `end`.
 #[inline]
 fn go<F: Beside, const N: usize>(
     lags: &mut [F],

@@ -1,10 +1,10 @@
-//! The signal some time ago; before the first sample of the trial it rests, and after the last it goes on resting.
+//! Delayed signal, held at its first value before the trial and at its last value after it.
 //!
-//! A negative delay looks ahead, as far as there are samples: where they come one by one, it changes nothing.
+//! A negative delay reads ahead as far as there are samples; in a stream it changes nothing.
 
 use super::{State, take_room};
 
-/// Samples per second up to which a line has room from the start.
+/// Samples per second that memory is reserved for.
 const FASTEST: f64 = 1000.0;
 
 /// See the head of this file.
@@ -12,7 +12,7 @@ const FASTEST: f64 = 1000.0;
 pub struct DelayLine {
     time: Vec<f64>,
     x: Vec<f64>,
-    /// The sample before the moment that was asked for last.
+    /// The sample before the last requested time.
     near: usize,
     /// Samples that no delay reaches any more.
     stale: usize,
@@ -41,7 +41,7 @@ impl State for DelayLine {
 }
 
 impl DelayLine {
-    /// Replaces the next samples by those `delay` seconds before them, which is never more than `longest`.
+    /// Replaces the next samples by those `delay` seconds earlier; `delay` is at most `longest`.
     pub fn run(&mut self, time: &[f64], x: &mut [f64], delay: impl Fn(usize) -> f64, longest: f64) {
         self.time.extend_from_slice(time);
         self.x.extend_from_slice(x);
@@ -69,7 +69,7 @@ impl DelayLine {
         }
     }
 
-    /// Lets go of what lies more than `longest` before the last sample, once it is half of all.
+    /// Drops samples more than `longest` before the last one, once they are half of all.
     fn forget(&mut self, longest: f64) {
         let Some(last) = self.time.last() else { return };
         let oldest = last - longest.max(0.0);

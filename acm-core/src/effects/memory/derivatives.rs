@@ -1,4 +1,4 @@
-//! A noisy signal on irregular time stamps without its noise, and its first and second derivative: a polynomial through a window around
+//! Smoothed value, first and second derivative of a noisy signal on irregular time stamps: a local polynomial in a window around
 //! each sample.
 //!
 //! ```text
@@ -9,18 +9,19 @@
 //! | `τ_k`  | t_k − t, time from the sample             | s    |
 //! | `h`    | window: half its width                    | s    |
 //!
-//! A parabola, j ≤ 2, or a quartic, j ≤ 4. Of a sine a parabola loses ω²h²/18 of the rate and ω²h²/22 of the acceleration, and a quartic a
-//! fourteenth of that at most. The window is cut off at the ends of what is known, so the newest sample of a stream has a past only: there a
-//! parabola's derivatives are about ten times as noisy, and a quartic's more. Weights that fade to the edge make the result smooth in h, so that a search can follow its
-//! slope: of N uniform samples within the window, far from the ends and with white noise σ, var c_1 = 70 σ²/(11 N h²) of a parabola. A sharp
-//! edge would have 3 σ²/(N h²), the same at 0.78 h, and jump with h. Fan & Gijbels (1996), Local Polynomial Modelling, ch. 3.
+//! A parabola, j ≤ 2, or a quartic, j ≤ 4. Of a sine a parabola loses ω²h²/18 of the rate and ω²h²/22 of the acceleration, and a
+//! quartic a fourteenth of that at most. The window is cut off at the ends of the known samples. The newest sample of a stream has
+//! a past only: there a parabola's derivatives are about ten times as noisy, and a quartic's more. Weights that fade to the edge
+//! make the result smooth in h, as a gradient search needs. For N uniform samples within the window, far from the ends and with
+//! white noise σ, a parabola has var c_1 = 70 σ²/(11 N h²). A sharp edge would have 3 σ²/(N h²), the same at 0.78 h, and jump with
+//! h. Fan & Gijbels (1996), Local Polynomial Modelling, ch. 3.
 //!
-//! No window is narrower than 1.6 times the reach of the five samples nearest by index: that is what h = 0 means for the derivatives. There
-//! it is a parabola, and a quartic from twice that window on. The signal itself is as it was at h = 0, and on the way to the narrowest
-//! window as far between the two as h is.
+//! No window is narrower than 1.6 times the reach of the five samples nearest by index; h = 0 means this window for derivatives.
+//! There a parabola is used; the quartic is blended in up to twice that window. The signal itself is unsmoothed at h = 0, and up
+//! to the narrowest window smoothed in proportion to h.
 //!
-//! Linear in the number of samples: sums of powers run along blocks of one h, each about its own middle, so that they lose
-//! no more than three digits.
+//! Linear in the number of samples: running sums of powers in blocks of length h, each about its own middle, lose no more than
+//! three digits.
 
 mod windows;
 
@@ -32,19 +33,19 @@ use crate::slope::slope_at;
 /// Samples that a window must hold.
 const FEWEST: usize = 5;
 
-/// The narrowest window, over the reach of so many samples.
+/// Narrowest window over the reach of these samples.
 const NARROWEST: f64 = 1.6;
 
-/// Samples on either side of which a narrowest window may consist.
+/// Most samples on either side in a narrowest window.
 const NEAR: usize = 8;
 
-/// Samples per second up to which there is room from the start.
+/// Samples per second that memory is reserved for.
 const FASTEST: f64 = 1000.0;
 
-/// What the polynomial has at the sample.
+/// The polynomial at the sample.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Derivative {
-    /// x̃, the signal without its noise.
+    /// x̃, the smoothed signal.
     pub value: f64,
     /// ẋ, per second.
     pub rate: f64,
@@ -72,7 +73,7 @@ struct Block {
     x: f64,
     /// First sample of any window.
     from: usize,
-    /// The window of the last sample that was asked for.
+    /// The window of the last requested sample.
     window: (usize, usize),
 }
 
@@ -80,7 +81,7 @@ struct Block {
 #[derive(Debug, Default)]
 struct Waiting {
     windows: Windows,
-    /// The samples, as they are counted in all that is kept, and in what is asked for.
+    /// Index of each sample among those kept, and among those requested.
     samples: [(usize, usize); TOGETHER],
 }
 
@@ -126,7 +127,7 @@ impl Derivatives {
         let mut waiting = Waiting::default();
         for t in first..self.time.len() {
             let narrowest = narrowest(&self.time, t);
-            // Blocks begin by time alone, whatever is known of later samples.
+            // Blocks begin by time alone, independent of later samples.
             let block = (window > 0.0).then(|| self.block_of(t, window, &mut waiting));
             self.found.push(Derivative::default());
             match block.filter(|_| narrowest > 0.0 && window >= narrowest) {
@@ -150,12 +151,12 @@ impl Derivatives {
         &self.found
     }
 
-    /// What is known where a window holds too little.
+    /// Result where a window holds too little.
     fn line(&self, t: usize) -> Derivative {
         Derivative { value: self.x[t], rate: slope_at(&self.time, &self.x, t), acceleration: 0.0 }
     }
 
-    /// The block of sample `t`, which begins with it where the last one has ended.
+    /// The block of sample `t`; a new one where the last one has ended.
     fn block_of(&mut self, t: usize, h: f64, waiting: &mut Waiting) -> Block {
         let block = match self.block {
             Some(block) if self.time[t] < block.start + h => block,
@@ -208,7 +209,7 @@ impl Derivatives {
         Block { start, x: self.x[t], from, window: (from, from) }
     }
 
-    /// Goes on with the sums as far as windows of the block reach and samples are known.
+    /// Continues the sums as far as the block's windows and known samples reach.
     fn sum_up(&mut self, block: &Block, h: f64) {
         let mut k = block.from + self.sums.len() - 1;
         while k < self.time.len() && self.time[k] < block.start + 2.0 * h {
@@ -227,7 +228,7 @@ impl Derivatives {
         }
     }
 
-    /// Lets go of what no window reaches any more, once it is half of all.
+    /// Drops samples beyond all windows, once they are half of all.
     fn forget(&mut self) {
         let near = self.time.len().saturating_sub(NEAR);
         let stale = self.block.map_or(near, |block| block.from.min(near));
@@ -258,7 +259,7 @@ fn narrowest(time: &[f64], t: usize) -> f64 {
     NARROWEST * (time[last] - time[t]).max(time[t] - time[first])
 }
 
-/// The parabola of a narrowest window h, sample by sample, where the one `asked` for is narrower.
+/// The parabola of a narrowest window h, where the requested one, `asked`, is narrower.
 fn near(time: &[f64], x: &[f64], t: usize, h: f64, asked: f64) -> Option<Derivative> {
     let mut s = [0.0; 8];
     for k in t.saturating_sub(NEAR)..(t + NEAR + 1).min(time.len()) {

@@ -1,4 +1,4 @@
-//! First-order lags that are not linear: what holds them, or sets their pace, depends on the state.
+//! Nonlinear first-order lags: their friction or time constant depends on the state.
 
 mod asymmetric_lag;
 mod stick_lag;

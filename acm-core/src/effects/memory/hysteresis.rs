@@ -1,4 +1,4 @@
-//! Operators that remember a way, whatever time it took.
+//! Operators with memory of a path.
 
 mod bouc_wen;
 mod lugre;

@@ -1,4 +1,4 @@
-//! First-order lag, exact for a signal that is straight between samples: τ ẏ = x − y, at rest at the first sample.
+//! First-order lag, exact for a signal that is linear between samples: τ ẏ = x − y, at rest at the first sample.
 //!
 //! ```text
 //! y_k = x_k − m τ + (y_{k−1} − x_{k−1} + m τ) e^{−h/τ},   m = (x_k − x_{k−1})/h
@@ -49,7 +49,7 @@ impl Beside for Lag {
     }
 }
 
-/// Where the lag that was at `y` is after a time in which the signal goes from `past` to `x`; `behind` is m τ.
+/// The output after a step from `y`, in which the signal goes from `past` to `x`; `behind` is m τ.
 #[inline]
 pub(super) fn relax((y, past, x): (f64, f64, f64), behind: f64, decay: f64) -> f64 {
     x - behind + (y - past + behind) * decay
@@ -61,7 +61,7 @@ pub fn lag(time: &[f64], x: &mut [f64], tau: impl Fn(usize) -> f64) {
     x.iter_mut().zip(time).enumerate().for_each(|(t, (x, time))| *x = lag.step(*time, *x, tau(t), &mut decay));
 }
 
-/// Passes columns on, a share of each late: `values` gives the share and τ at each sample.
+/// Passes columns through a creep: `values` gives the late share and τ at each sample.
 pub fn creep(memory: &mut Memory, time: &[f64], values: impl Fn(usize) -> [f64; 2], columns: &mut [Vec<f64>]) {
     let (lags, mut decay) = (memory.states::<Lag>(columns.len()), Decay::default());
     for (t, time) in time.iter().enumerate() {

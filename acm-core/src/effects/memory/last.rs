@@ -1,4 +1,4 @@
-//! A value with the arguments that it belongs to: columns that pass through one filter share what depends on the step in time.
+//! Cache of one value with its arguments: columns of one filter share what depends on the step in time.
 
 /// See the head of this file.
 #[derive(Debug, Clone, Copy)]

@@ -12,7 +12,7 @@ pub struct RateLimit {
 impl State for RateLimit {}
 
 impl RateLimit {
-    /// Where the follower is at the next sample.
+    /// The output at the next sample.
     #[inline]
     pub fn step(&mut self, time: f64, x: f64, slowness: f64) -> f64 {
         let (h, past) = Point::since(self.before, time, x);
@@ -22,7 +22,7 @@ impl RateLimit {
     }
 }
 
-/// Where one that runs at `speed` is after `h` seconds behind a target that runs straight from `from` to `to`.
+/// The output after `h` seconds, at most at `speed`, for an input that goes linearly from `from` to `to`.
 fn chase(y: f64, from: f64, to: f64, h: f64, speed: f64) -> f64 {
     let ahead = from - y;
     let run = if ahead == 0.0 { 0.0 } else { ahead.signum() * speed };

@@ -1,6 +1,6 @@
 //! Second-order lag: ÿ + 2ζω ẏ + ω² y = ω² x, at rest at the first sample.
 //!
-//! A signal of slope m leaves the deviation e = y − x + 2ζm/ω to swing freely, with s = ω √(1 − ζ²):
+//! With a signal slope m, the deviation e = y − x + 2ζm/ω oscillates freely, with s = ω √(1 − ζ²):
 //!
 //! ```text
 //! e_k = e^{−ζωh} ((cos sh + ζω sin(sh)/s) e_{k−1} + sin(sh)/s ė_{k−1})
@@ -13,13 +13,13 @@ use super::{Last, Point, State};
 /// The step of the last interval h, unit 1/ω and damping ζ.
 pub type Swing = Last<(f64, f64, f64), Stride>;
 
-/// A step as a linear map, the same for all signals with these time stamps: of the deviation from the signal before, of the speed, and of the
-/// rise of the signal. A signal that rests stays as it is, to the last bit.
+/// A step as a linear map, the same for all signals with these time stamps. Its inputs are the deviation before, the speed, and the
+/// rise of the signal. A constant signal stays as it is, bit for bit.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Stride {
-    /// What they add to the deviation from the signal now.
+    /// Weights of the deviation after the step.
     off: [f64; 3],
-    /// What they add to the speed.
+    /// Weights of the new speed.
     speed: [f64; 3],
 }
 
@@ -45,7 +45,7 @@ impl Stride {
         (x + of(&self.off), of(&self.speed))
     }
 
-    /// Returns what a signal that is larger by one after the step adds to y and to its speed.
+    /// Returns the change of y and of its speed per unit of the signal after the step.
     pub(super) fn of_input(&self) -> (f64, f64) {
         (1.0 + self.off[2], self.speed[2])
     }

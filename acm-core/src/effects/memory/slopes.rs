@@ -1,8 +1,7 @@
 //! Rate of change of a signal that comes piece by piece: the slope of a line through each sample and its neighbours.
 //!
-//! Of a whole trial it is [`crate::slope::slope`], with two neighbours on either side. Where samples come one by one
-//! none of the later ones is known, and the line goes through the sample and the two before it: it tells the slope of one
-//! sample ago where samples are evenly spaced.
+//! For a whole trial it is [`crate::slope::slope`], with two neighbours on either side. In a stream no later samples are
+//! known, and the line goes through the sample and the two before it: with even spacing this is the slope one sample ago.
 
 use super::{State, take_room};
 use crate::slope::{REACH, slope_at};

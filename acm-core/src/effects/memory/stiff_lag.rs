@@ -1,5 +1,5 @@
-//! Second-order lag whose spring hardens or softens, with dry friction beside it: z̈ + 2ζω ż + ω² (z − f(z) + r(ż)) = ω² x, at rest at
-//! the first sample.
+//! Second-order lag with a hardening or softening spring and dry friction: z̈ + 2ζω ż + ω² (z − f(z) + r(ż)) = ω² x, at rest at the
+//! first sample.
 //!
 //! ```text
 //! f = −k (z − c)³ for k ≥ 0,   f = (z − c) − sin(κ (z − c))/κ with κ = √(−6k) for k < 0
@@ -7,9 +7,9 @@
 //!
 //! It hardens as Duffing's spring does, and softens as gravity does on a pendulum, with −k (z − c)³ as its first term.
 //!
-//! The linear part is exact for an input that is straight over each part of an interval ([`parts`]); f is an input beside x, predicted by
-//! its last value and corrected by a Newton step, and the friction r is constant over the part ([`Friction`]). Second order in the part.
-//! Over a part of length h from input u₀ to u₁, with the cosine C and sine S of
+//! The linear part is exact for an input that is linear over each part of an interval ([`parts`]). f is added to the input,
+//! predicted by its last value and corrected by a Newton step; the friction r is constant over the part ([`Friction`]). Second
+//! order in the part. Over a part of length h from input u₀ to u₁, with the cosine C and sine S of
 //! [`swing`](super::second_order_lag::swing) and b = 2ζ/(ωh):
 //!
 //! ```text
@@ -28,11 +28,11 @@ use super::{Point, State};
 
 pub use friction::Friction;
 
-/// Farthest that z may go from the input: a soft spring has no place to come back from. A resonance goes out by 1/(2ζ) half ranges,
-/// 30 at a damping of 0.017.
+/// Largest distance of z from the input: a soft spring may diverge. A resonance reaches 1/(2ζ) half ranges, 30 at a damping of
+/// 0.017.
 const FARTHEST: f64 = 30.0;
 
-/// Newton steps to the place where the spring rests; each takes off a third of what a hard one leaves at least.
+/// Newton steps to the equilibrium; with a hard spring each reduces the error by a third at least.
 const NEWTON: usize = 30;
 
 /// The spring, k and c, and the friction beside it.
@@ -79,7 +79,7 @@ impl Spring {
         if self.hardness > 0.0 { unit / (1.0 + 3.0 * self.hardness).sqrt() } else { unit }
     }
 
-    /// Returns z at rest behind a constant input, z − f(z) = x, by Newton's method; x where that does not converge.
+    /// Returns the equilibrium z for a constant input, z − f(z) = x, by Newton's method; x if it fails.
     fn at_rest(self, x: f64) -> f64 {
         let newton = |z: f64, _: usize| {
             let (pull, slope) = self.pull(z);
@@ -121,7 +121,7 @@ impl StiffLag {
         // z = free + moves f(z).
         let predicted = free + moves * pull;
         let (near, slope) = spring.pull(predicted);
-        // A soft spring's step goes no farther than twice as far as one without slope.
+        // A soft spring's step is at most twice that without slope.
         let slope = if moves * slope > 0.5 { 0.5 / moves } else { slope };
         let correction = moves * (near - pull) / (1.0 - moves * slope);
         let pull = near + slope * correction;

@@ -5,8 +5,8 @@ use super::{Point, interval};
 /// Most parts of an interval.
 const MOST: usize = 4;
 
-/// Longest part that counts as short, in time constants. What is second order in the part is off by 1/12 of its square then, 8e-4 of what
-/// the equation has beyond a linear one.
+/// Longest part that counts as short, in time constants. A second-order method then errs by 1/12 of its square, 8e-4 of the
+/// nonlinear term.
 const SHORT: f64 = 0.1;
 
 /// Signal at the ends of each part of the interval up to the sample `(time, x)`; the length of a part, s, before them. There are 1, 2 or

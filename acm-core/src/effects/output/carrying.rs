@@ -1,4 +1,4 @@
-//! What effects that a signal carries share: the signal, its derivatives and range, and one size for each output.
+//! Shared by effects with a carrier signal: the signal, its derivatives and range, and one size for each output.
 
 use crate::effects::memory::{Derivative, Derivatives, State};
 use crate::effects::{Carrier, Memory, ParameterSpec, Record, Rig, Values, guesses, times};
@@ -15,13 +15,13 @@ pub fn moving(rig: &Rig) -> Vec<Carrier> {
     moving.map(|(j, _)| Carrier::Actuator(j)).chain(moving_contexts(rig)).collect()
 }
 
-/// Those of [`moving`] where there is no arm, whose parts have effects of their own at their places.
+/// Those of [`moving`] where there is no arm; an arm has its own effects.
 pub fn moving_of_no_arm(rig: &Rig) -> Vec<Carrier> {
     if rig.arm.is_none() { moving(rig) } else { vec![] }
 }
 
 /// Those of [`moving`] that are positions or angles, or have no unit, for forces that oppose or follow a motion; all where none is,
-/// since any signal may then stand for the motion that was not recorded.
+/// since any signal may then stand for the unrecorded motion.
 pub fn motions(rig: &Rig) -> Vec<Carrier> {
     let all = moving(rig);
     let is_motion = |carrier: &Carrier| MOTIONS.contains(&range(rig, *carrier).0.as_str());
@@ -47,7 +47,7 @@ pub fn signal(record: &Record, carrier: Carrier) -> Option<&[f64]> {
     }
 }
 
-/// What `of` makes of the derivatives of the carrier's signal, by a polynomial through a window of half a width of `window`, s.
+/// `of` applied to the derivatives of the carrier's signal: local polynomials with a half window of `window`, s.
 pub fn derivative<'m>(
     record: &Record,
     carrier: Carrier,
@@ -58,8 +58,8 @@ pub fn derivative<'m>(
     following(record, carrier, window, memory, |(): &mut (), _, derivative| of(derivative))
 }
 
-/// What `step` makes, with a state of its own, of one sample after another of the carrier's signal: of its index, and of the polynomial
-/// through a window of half a width of `window`, s.
+/// `step` applied, with its own state, to each sample of the carrier's signal: to its index, and to the local polynomial with a half
+/// window of `window`, s.
 pub fn following<'m, S: State>(
     record: &Record,
     carrier: Carrier,
@@ -142,9 +142,9 @@ pub fn extent(signal: &Signal) -> f64 {
     sizes.into_iter().find(|size| *size > 0.0).unwrap_or(1.0)
 }
 
-/// One size for each output, in its unit per `unit`. Where the size is typical, the effect covers a twentieth of the output's
-/// range as what it is multiplied with runs through `width`; the largest is `largest` times as big. An output that does not
-/// move gets a size between 0 and 0, which no fit can change.
+/// One size for each output, in its unit per `unit`. A typical size spans a twentieth of the output's range while its factor
+/// spans `width`; the largest is `largest` times as big. An output that does not move gets a size between 0 and 0, which no
+/// fit can change.
 pub fn sizes(rig: &Rig, name: &str, unit: &str, width: f64, largest: f64) -> Vec<ParameterSpec> {
     let of = |y: &Signal| {
         let typical = 0.05 * extent(y) / width;
@@ -166,7 +166,7 @@ pub fn per(unit: &str, other: &str) -> String {
     }
 }
 
-/// A time between one step and a whole trial, s: what rates of change are measured by where only ranges are known.
+/// A time between one step and a whole trial, s: it scales rates of change where only ranges are known.
 pub fn typical_time(rig: &Rig) -> f64 {
     let time = (rig.step * rig.duration).sqrt();
     if time.is_finite() && time > 0.0 { time } else { 1.0 }
@@ -179,7 +179,7 @@ pub fn add(columns: &mut [Vec<f64>], size: impl Fn(usize, usize) -> f64, signal:
     }
 }
 
-/// Adds to every column its size times what the carrier's signal is above `centre`, where that value follows one size for each column.
+/// Adds to every column its size times the carrier's signal minus `centre`, the value that follows one size for each column.
 pub fn add_about_centre(
     carrier: Carrier,
     values: Values,

@@ -1,4 +1,4 @@
-//! Coulomb friction: a friction of one size in either direction of motion, smooth through zero speed, shifts the outputs.
+//! Coulomb friction: a friction of constant magnitude, smooth through zero speed, shifts the outputs.
 //!
 //! ```text
 //! ỹ_m = y_m + f_m tanh(ṡ/v)
@@ -22,7 +22,7 @@ pub struct CoulombFriction;
 /// Speeds to start from, as shares of a range in a typical time, which is fast.
 const SPEEDS: [f64; 3] = [0.002, 0.01, 0.05];
 
-/// The largest, as such a share. A friction that takes longer to turn round is viscous.
+/// The largest, as such a share. Friction with a slower transition is viscous.
 const LARGEST: f64 = 0.1;
 
 impl Effect for CoulombFriction {

@@ -8,7 +8,8 @@
 //! | `a_m, b_m` | weight times lever arm, in phase with the joint and out of it, one each for each output | of the output |
 //! | `s`        | angle of the joint: a signal in rad                       | rad           |
 //!
-//! Angles of an arm that bends are none of a joint. Siciliano, Sciavicco, Villani & Oriolo (2009), Robotics: Modelling, Planning and Control, 7.2.
+//! Bending angles of an arm are not joint angles. Siciliano, Sciavicco, Villani & Oriolo (2009), Robotics: Modelling, Planning
+//! and Control, 7.2.
 
 use super::carrying;
 use crate::effects::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, Traits, Values, guesses};

@@ -13,8 +13,8 @@
 //! | `w`    | Stribeck's speed, over which that falls off                                 | of the signal per s |
 //! | `h`    | window: half its width; the nearest five samples at 0                       | s                   |
 //!
-//! At r = 0 it is Dahl's friction of a motion whose speed is straight between samples. Sliding ends at f g(v), so that with a short δ it is
-//! Coulomb's and Stribeck's friction. Damping of the bristles is left out, and `viscous_friction` is an effect by itself.
+//! At r = 0 it is Dahl's friction for a speed that is linear between samples. Steady sliding has f g(v), so that with a short δ it is
+//! Coulomb's and Stribeck's friction. Damping of the bristles is left out, and `viscous_friction` is a separate effect.
 //! Canudas de Wit, Olsson, Åström & Lischinsky (1995), A new model for control of systems with friction, IEEE Trans. Automatic
 //! Control 40(3).
 

@@ -1,5 +1,5 @@
-//! Bouc–Wen hysteresis of the outputs over a signal: a bounded force or shift that the way of the signal drives, and that yields
-//! smoothly or suddenly, as of a magneto-rheological damper, a pneumatic muscle or a piezo stack.
+//! Bouc–Wen hysteresis of the outputs over a signal: a bounded force or shift driven by the signal's motion, which yields
+//! smoothly or suddenly, as in a magneto-rheological damper, a pneumatic muscle or a piezo stack.
 //!
 //! ```text
 //! ỹ_m = y_m + f_m z(s̃),   δ dz = ds̃ − ½(1 + a) |ds̃| |z|^{n−1} z − ½(1 − a) ds̃ |z|^n,   z(t_0) = z_0

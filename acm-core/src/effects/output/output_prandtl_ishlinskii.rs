@@ -11,10 +11,10 @@
 //! | `r`       | the largest travel                                               | of the signal          |
 //! | `z_0`     | strain at the first sample over each travel: what was done before, 1 where the signal had come from far below | 1 |
 //!
-//! Elements in parallel make loops within loops, whose shape depends on where each turned: piezo stacks, shape-memory alloys, soft actuators.
-//! One element alone is `output_hysteresis`, which it is tried in the place of: eight stiffnesses from the start explain what a simpler
-//! hysteresis does that depends on another signal. The outputs are linear in all stiffnesses. Kuhnen (2003), European Journal of Control 9(4);
-//! Brokate & Sprekels (1996), Hysteresis and Phase Transitions, sec. 2.4.
+//! Parallel elements make minor loops whose shape depends on the reversal points: piezo stacks, shape-memory alloys, soft actuators. One
+//! element alone is `output_hysteresis`, which it is tried as a replacement of: from the start, eight stiffnesses would also explain a
+//! simpler hysteresis that depends on another signal. The outputs are linear in all stiffnesses. Kuhnen (2003), European Journal of
+//! Control 9(4); Brokate & Sprekels (1996), Hysteresis and Phase Transitions, sec. 2.4.
 
 use super::carrying;
 use crate::effects::memory::Play;
@@ -23,7 +23,7 @@ use crate::effects::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, 
 /// See the head of this file.
 pub struct OutputPrandtlIshlinskii;
 
-/// Travels as shares of the largest: closer together where they are small, as turns of small motions only reach those.
+/// Travels as shares of the largest: closer together where they are small, since small motions only reach those.
 const SHARES: [f64; ELEMENTS] = [0.06, 0.14, 0.24, 0.36, 0.5, 0.65, 0.82, 1.0];
 const ELEMENTS: usize = 8;
 

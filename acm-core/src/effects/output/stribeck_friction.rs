@@ -1,4 +1,4 @@
-//! Stribeck friction: what breaking away adds to dry friction, and falls off with speed, shifts the outputs.
+//! Stribeck friction: the breakaway part of dry friction, which falls off with speed, shifts the outputs.
 //!
 //! ```text
 //! ỹ_m = y_m + s_m e^{−(ṡ/v)²} tanh(10 ṡ/v)
@@ -19,7 +19,7 @@ use crate::effects::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, 
 /// See the head of this file.
 pub struct StribeckFriction;
 
-/// Ratio of Stribeck's speed and that over which the friction turns round.
+/// Ratio of Stribeck's speed to that over which the friction reverses.
 const SHARP: f64 = 10.0;
 
 /// Stribeck's speeds to start from, as shares of a typical one.

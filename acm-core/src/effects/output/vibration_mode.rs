@@ -1,4 +1,4 @@
-//! Vibration mode: a flexible mode that an actuator excites adds to the outputs, beside others and beside what follows directly.
+//! Vibration mode: a flexible mode excited by an actuator adds to the outputs, in parallel with others and with the direct path.
 //!
 //! ```text
 //! ỹ_m = y_m + a_m z + b_m z'/ω,   z'' + 2ζω z' + ω² z = ω² q_j,   ω = 2π/P,   z(t_0) = q_j(t_0),   z'(t_0) = 0
@@ -10,8 +10,8 @@
 //! | `P`    | natural period                                                       | s                          |
 //! | `ζ`    | damping                                                              | 1                          |
 //!
-//! A sum of modes is a structure whose sensor and drive lie anywhere on it: both shares are the real and imaginary part of its residue. An
-//! oscillator that the whole motion passes is `second_order_lag`. Exact for actuators that move straight between samples. Ewins (2000),
+//! A sum of modes is a structure with sensor and drive anywhere on it: both shares are the real and imaginary part of its residue. An
+//! oscillator in series with the motion is `second_order_lag`. Exact for actuators that are linear between samples. Ewins (2000),
 //! Modal Testing, ch. 2.
 
 use std::f64::consts::TAU;
@@ -25,7 +25,7 @@ use crate::effects::{
 /// See the head of this file.
 pub struct VibrationMode;
 
-/// Smallest and largest damping: a mode that hardly swings is a lag.
+/// Smallest and largest damping: with more, a mode is a lag.
 const DAMPING: [f64; 2] = [5e-4, 0.3];
 
 /// Damping ratio to start from.
@@ -61,7 +61,7 @@ impl Effect for VibrationMode {
         let (unit, width) = carrying::range(rig, carrier);
         let sizes = |name: &str| carrying::sizes(rig, name, &unit, width, 400.0);
         let mut specs: Vec<ParameterSpec> = ["displacement", "velocity"].into_iter().flat_map(sizes).collect();
-        // What swings faster than that is an inertia.
+        // Anything faster than that is an inertia.
         let period = times::shape(rig, "period");
         let fastest = times::vibrations(rig).first().map_or(period.lower, |fastest| *fastest);
         specs.push(period.clone().within(fastest, period.upper));

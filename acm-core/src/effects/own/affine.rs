@@ -4,7 +4,7 @@
 //! e = Σ_i a_i v_i + b,   a_i and b free of v
 //! ```
 //!
-//! Sums, differences, products with what is free of v, and quotients by it are seen through; all else is taken for not linear.
+//! Sums, differences, products with what is free of v, and quotients by it are recognised; all else counts as nonlinear.
 
 use std::collections::BTreeMap;
 
@@ -14,7 +14,7 @@ use super::function::Function;
 /// a_i by name, and b under none; what is absent is 0.
 pub type Affine = BTreeMap<Option<String>, Expression>;
 
-/// The coefficients; none where the expression is not seen to be linear.
+/// The coefficients; none where linearity is not recognised.
 pub fn affine(expression: &Expression, is_variable: &impl Fn(&str) -> bool) -> Option<Affine> {
     if !expression.has(is_variable) {
         let is_zero = expression.value() == Some(0.0);

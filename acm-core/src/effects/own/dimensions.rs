@@ -1,4 +1,4 @@
-//! Dimensions of expressions: what is added or compared has one, and what a function takes is a number.
+//! Dimensions of expressions: added or compared terms share one; exp, sin and the like take numbers.
 
 use std::collections::BTreeMap;
 

@@ -45,7 +45,7 @@ pub struct Misplaced {
     pub help: String,
 }
 
-/// Longest text, in bytes, and most brackets within each other: whoever writes more splits it into states.
+/// Longest text, in bytes, and deepest nesting of brackets; longer ones must be split into states.
 const LONGEST: usize = 1000;
 const DEEPEST: usize = 50;
 
@@ -110,7 +110,7 @@ struct Parser<'a> {
     depth: usize,
 }
 
-/// Operators between two values: text, how they bind, function, whether the sides change places. Longer ones first.
+/// Binary operators: text, precedence, function, whether the sides are swapped. Longer ones first.
 const BETWEEN: &[(&str, u8, Function, bool)] = &[
     ("||", 1, Function::Or, false),
     ("&&", 2, Function::And, false),
@@ -127,10 +127,10 @@ const BETWEEN: &[(&str, u8, Function, bool)] = &[
     ("^", 7, Function::Power, false),
 ];
 
-/// How a sign before a value binds, and how a power does.
+/// Precedence of a sign before a value, and of a power.
 const SIGN: u8 = 6;
 const POWER: u8 = 7;
-/// How a comparison binds: a second one after it is asked for brackets.
+/// Precedence of a comparison; a second one after it needs brackets.
 const COMPARISON: u8 = 3;
 
 impl Parser<'_> {
@@ -168,7 +168,7 @@ impl Parser<'_> {
                 break;
             }
             self.at += word.len();
-            // A power takes its exponent from the right; all others take what binds more.
+            // A power is right-associative, all others are left-associative.
             let right = self.expression(if binds == POWER { SIGN } else { binds + 1 })?;
             let span = [left.span[0], right.span[1]];
             let sides = if turned { vec![right, left] } else { vec![left, right] };

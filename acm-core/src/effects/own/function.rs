@@ -1,6 +1,6 @@
-//! Functions of expressions, and what they make of numbers.
+//! Functions of expressions, and their values.
 //!
-//! Truth is 1, untruth 0. `sign(0)` is 0; of `min` and `max` that which is a number wins; `log` is natural.
+//! True is 1, false 0. `sign(0)` is 0; `min` and `max` ignore NaN; `log` is natural.
 
 /// One function or operator of at most three arguments.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -32,7 +32,7 @@ pub enum Function {
     Tan,
     Atan,
     Atan2,
-    /// The same number: gives a register of its own.
+    /// The same number, in its own register.
     Copy,
 }
 
@@ -111,7 +111,7 @@ impl Function {
         })
     }
 
-    /// Its value; arguments beyond its own are not looked at.
+    /// Its value; further arguments are ignored.
     pub fn of(self, [a, b, c]: [f64; 3]) -> f64 {
         match self {
             Function::Add => a + b,

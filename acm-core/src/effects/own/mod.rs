@@ -1,4 +1,4 @@
-//! Effects of one's own: equations that a file writes, traced, compared, saved and streamed like those of the library.
+//! Effects of one's own: equations from a file, traced, compared, saved and streamed like those of the library.
 //!
 //! ```text
 //! static    x' = f(x, u, t; θ)
@@ -25,7 +25,7 @@
 //!
 //! A rate that is linear in states and inputs, with coefficients of parameters and constants alone, is integrated exactly; any
 //! other by the classical Runge–Kutta method, in a number of steps that does not depend on the parameters. Where all sizes are
-//! at their silent values, the column stays as it is. The same bits in pieces of any length.
+//! at their silent values, the column is unchanged. Pieces of any length give the same bits.
 
 mod affine;
 pub mod definition;
@@ -71,10 +71,10 @@ struct File {
 }
 
 /// Reads the text of a file of effects, `[[effect]]` for each, and checks what can be checked without a rig; `file` is its name,
-/// for complaints and for whoever reads the result.
+/// for errors and results.
 ///
 /// # Errors
-/// What is no such file, or an effect that cannot be carried out: with effect, key, value and remedy.
+/// An invalid file, or an invalid effect: with effect, key, value and remedy.
 pub fn read(text: &str, file: &str) -> Result<Vec<Definition>, OwnError> {
     let read: File = toml::from_str(text).map_err(|error| {
         let help = "see the chapter \"Effects of one's own\" of the book for the keys";
@@ -111,8 +111,8 @@ impl Own {
     /// The effect on a rig.
     ///
     /// # Errors
-    /// A definition that cannot be carried out there: a signal that is missing or has another unit, values that make it endless,
-    /// or sizes that are not silent where they should be.
+    /// A definition that is invalid there: a signal that is missing or has another unit, values without a finite result, or
+    /// sizes that are not silent where they should be.
     pub fn new(definition: &Definition, rig: &Rig) -> Result<Arc<Self>, OwnError> {
         let wrong = |fault: OwnError| fault.of(&definition.file, &definition.name);
         let plan = Plan::new(definition).map_err(wrong)?;
@@ -139,7 +139,7 @@ impl Own {
         &self.definition
     }
 
-    /// Whether its rate is integrated exactly; none of an effect without a rate.
+    /// Whether its rate is integrated exactly; none without a rate.
     pub fn is_exact(&self) -> Option<bool> {
         match self.plan.form {
             Form::Linear(_) => Some(true),
@@ -164,7 +164,7 @@ impl Own {
         self.parameters.get(at)
     }
 
-    /// Tries it on waves over the rig's ranges: finite at every guess, and next to silent next to its silent values.
+    /// Tests it on waves over the rig's ranges: finite at every guess, and almost silent close to its silent values.
     fn is_sound(&self, rig: &Rig) -> Result<(), OwnError> {
         let (record, outputs) = waves(rig);
         for (carrier, parameters) in self.ports.carriers.iter().zip(&self.parameters) {
@@ -200,7 +200,7 @@ impl Own {
             let spread =
                 |x: &[f64]| x.iter().fold(f64::MIN, |m, x| m.max(*x)) - x.iter().fold(f64::MAX, |m, x| m.min(*x));
             let off = |(a, b): (&Vec<f64>, &Vec<f64>)| {
-                // A column that rests has its value for a range; of one that rests at 0 nothing is asked.
+                // A constant column is measured by a thousandth of its value; one at 0 is not tested.
                 let size = spread(a).max(1e-3 * a.iter().fold(0.0, |most, x| x.abs().max(most)));
                 let off = a.iter().zip(b).fold(0.0f64, |most, (a, b)| most.max((a - b).abs()));
                 if size > 0.0 { off / size } else { 0.0 }
@@ -217,7 +217,7 @@ impl Own {
     }
 }
 
-/// How near to the silent values it is tried, as a share of a guess, and how little it may do there, as a share of a range.
+/// Distance from the silent values in that test, as a share of a guess, and largest effect there, as a share of a range.
 const NEXT: f64 = 1e-7;
 const SILENT: f64 = 1e-3;
 

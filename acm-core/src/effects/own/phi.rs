@@ -1,4 +1,4 @@
-//! Exact steps of a linear system whose forcing is straight between samples.
+//! Exact steps of a linear system whose forcing is linear between samples.
 //!
 //! ```text
 //! ż = A z + f,   z(h) = φ0 z(0) + h (φ1 − φ2) f(0) + h φ2 f(h),   φk of hA
@@ -38,7 +38,7 @@ pub struct Step<const N: usize> {
     pub forcing: Forcing<N>,
 }
 
-/// What a forcing that is straight over a step adds.
+/// Part of a forcing that is linear over a step.
 #[derive(Debug, Clone, Copy)]
 pub enum Forcing<const N: usize> {
     /// h(φ1 − φ2) f(0) + hφ2 f(h).
@@ -135,7 +135,7 @@ impl<const N: usize> System<N> {
     #[inline]
     pub fn step(&self, h: f64) -> Step<N> {
         match &self.pair {
-            // Both poles are told from 0 in a step, so that what is divided by A keeps its digits.
+            // Both poles differ from 0 within a step, so that dividing by A keeps its digits.
             Some(pair) if pair.determinant.abs() * h >= CLOSED * self.norm && h > 0.0 => pair.step(&self.a, h),
             _ => by_series(self, h),
         }

@@ -24,7 +24,7 @@ pub enum Class {
     After,
 }
 
-/// One operation: registers in, one register out that is behind all of them.
+/// One operation: registers in, one register out that is after all of them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Operation {
     function: Function,
@@ -101,7 +101,7 @@ impl Writer {
         to
     }
 
-    /// A register of its own for each result of a state, which what comes after reads.
+    /// A register of its own for each state's result, which later operations read.
     pub fn results(&mut self, registers: Vec<usize>) -> Vec<usize> {
         let mut own: Vec<usize> = vec![];
         for register in registers {
@@ -120,8 +120,8 @@ impl Writer {
         own
     }
 
-    /// The operations of a single state as a chain, each on the result of the one before and on another register, where they
-    /// are one: from the register before to the one at the sample.
+    /// The operations of a single state as a chain from `before` to `now`: each acts on the result of the one before and on another
+    /// register. None where they are no chain.
     pub fn chain(&self, before: usize, now: usize) -> Option<Vec<(Function, usize)>> {
         let mut last = before;
         let mut chain = vec![];

@@ -18,7 +18,7 @@ pub struct Ports {
     pub lanes: Vec<Vec<usize>>,
     /// The signal of each input; the rig as a whole stands for what carries the effect.
     pub inputs: Vec<Carrier>,
-    /// In which ways it can act.
+    /// Its possible carriers.
     pub carriers: Vec<Carrier>,
 }
 
@@ -210,7 +210,7 @@ fn range(signal: &Signal) -> f64 {
     actuators::travel(signal)
 }
 
-/// Numbers in SI: of the unit's scale, times ranges of the signals whose units it names.
+/// Numbers in SI: times the unit's scale and the ranges of signals whose units it names.
 fn scaled(
     parameter: &Parameter,
     unit: &Unit,
@@ -220,7 +220,7 @@ fn scaled(
 ) -> Scaled {
     let [of_column, of_carrier] = unit.dimension.open();
     let carried = carrying::range(rig, carrier);
-    // An actuator that rests has sizes between 0 and 0; what divides by its range has none.
+    // An actuator at rest has sizes between 0 and 0, also where its range divides.
     let own = widest.unwrap_or_else(|| range(column));
     let powered = |range: f64, power: f64| if power == 0.0 { 1.0 } else { range.powf(power) };
     let factor = unit.scale * powered(own, of_column) * powered(carried.1, of_carrier);
@@ -258,7 +258,7 @@ fn spec(name: String, scaled: &Scaled, is_additive: bool) -> ParameterSpec {
     }
 }
 
-/// Every guess with every other, thinned; then, where columns have sizes of their own, each alone.
+/// All combinations of guesses, thinned; then, where columns have their own sizes, each alone.
 fn all_guesses(
     definition: &Definition,
     (specs, lists): (&[ParameterSpec], &[Vec<f64>]),
@@ -266,7 +266,7 @@ fn all_guesses(
     columns: &[&Signal],
     is_additive: bool,
 ) -> Vec<Vec<f64>> {
-    // Shares of a guess: its place in each parameter's list.
+    // Number of guesses in each parameter's list.
     let counts: Vec<usize> = definition
         .parameters
         .values()

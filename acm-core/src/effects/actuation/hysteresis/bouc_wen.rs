@@ -1,4 +1,4 @@
-//! Bouc–Wen hysteresis: a bounded state that the way of each actuator drives, and that eases off as it turns back.
+//! Bouc–Wen hysteresis: a bounded state driven by each actuator's motion, which unloads after a reversal.
 //!
 //! ```text
 //! q̃_j = q_j − c_j z_j,   δ dz = dq − ½(1 + a) |dq| z − ½(1 − a) dq |z|,   z(t_0) = 0
@@ -9,10 +9,9 @@
 //! | `δ`    | width of the transition, all actuators                            | of the actuator |
 //! | `a`    | asymmetry (β − γ)/(β + γ) of loading and unloading, all actuators | 1               |
 //!
-//! Exponent 1, in units of saturation, so that |z| ≤ 1. At a = 1 the state is Dahl's; below, it eases off on a straighter
-//! line as it turns back, above, faster; a ≥ 0 is what thermodynamics admits. Where actuators have different units, δ is a
-//! share of each one's own travel. Ismail, Ikhouane & Rodellar (2009), Archives of Computational Methods in
-//! Engineering 16(2).
+//! Exponent 1, in units of saturation, so that |z| ≤ 1. At a = 1 the state is Dahl's; below, unloading is closer to linear;
+//! above, it is faster; thermodynamics requires a ≥ 0. Where actuators have different units, δ is a share of each one's own
+//! travel. Ismail, Ikhouane & Rodellar (2009), Archives of Computational Methods in Engineering 16(2).
 
 use super::length::{self, Length};
 use crate::effects::actuation::actuators;

@@ -1,4 +1,4 @@
-//! Dry friction of the drive, the same at every angle: each actuator loses a fixed way against the sense of its motion.
+//! Dry friction of the drive, the same at every angle: each actuator loses a fixed displacement against its motion.
 //!
 //! ```text
 //! q̃_j = q_j − f_j d_j,   δ dd = (sgn q̇ − d) |dq|,   d(t_0) = 0

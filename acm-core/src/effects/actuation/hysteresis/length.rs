@@ -4,10 +4,10 @@ use crate::effects::actuation::actuators::travel;
 use crate::effects::{ParameterSpec, Rig, Values, guesses};
 use crate::rig::Signal;
 
-/// A length along the travel that all actuators share: in their unit where they have one unit; otherwise a share of each
-/// one's travel, and the travels follow as known values.
+/// A length along the travel that all actuators share: in their unit where it is the same; otherwise a share of each
+/// one's travel, with the travels as known values.
 pub struct Length {
-    /// 1, or `share` of each actuator's travel.
+    /// Unit of the actuators, or 1 for shares.
     pub unit: String,
     /// What a share of 1 is in that unit.
     pub whole: f64,
@@ -29,7 +29,7 @@ impl Length {
         }
     }
 
-    /// A length at rest at `share` of the travel, between `lower` and `upper` of it.
+    /// A length, neutral at `share` of a travel, between `lower` and `upper` of it.
     pub fn shape(&self, name: &str, share: f64, lower: f64, upper: f64) -> ParameterSpec {
         let part = |share: f64| share * self.whole;
         ParameterSpec::shape(name, &self.unit, part(share), part(share)).within(part(lower), part(upper))
@@ -46,7 +46,7 @@ impl Length {
     }
 }
 
-/// What a shared length is multiplied with for actuator `j`: its travel where travels follow the first `own` parameters.
+/// Factor of a shared length for actuator `j`: its travel, where travels follow the first `own` parameters.
 pub fn unit_of_length(values: Values, own: usize, j: usize) -> f64 {
     if values.count() > own { values.at(own + j, 0) } else { 1.0 }
 }

@@ -1,4 +1,4 @@
-//! Hysteresis as a sum of plays: turning back costs a little more way for each play that has to be taken up.
+//! Prandtl–Ishlinskii hysteresis as a sum of plays: after a reversal each play is taken up in turn.
 //!
 //! ```text
 //! q̃ = q + Σ_i w_i (P_{r_i}[q] − q),   P_r the play of half-width r

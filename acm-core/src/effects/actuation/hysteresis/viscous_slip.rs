@@ -7,9 +7,8 @@
 //! | symbol | meaning                                                              | unit |
 //! | `c_j`  | time by which the arm trails; negative where it runs ahead           | s    |
 //!
-//! The speed is the slope of a line through the samples around each ([`Slopes`]), so it sees two samples of the future
-//! where there are any. First order of a lag, for one actuator at a time; Olsson et al. (1998), European Journal of
-//! Control 4(3).
+//! The speed is the slope of a line through neighbouring samples ([`Slopes`]), up to two future ones among them. First-order
+//! approximation of a lag, for one actuator at a time; Olsson et al. (1998), European Journal of Control 4(3).
 
 use crate::effects::actuation::actuators;
 use crate::effects::memory::Slopes;

@@ -9,7 +9,7 @@
 //!
 //! All actuators lag alike, or one of a few by itself, as a heater does beside a fan.
 //!
-//! Exact for actuators that move straight between samples. Franklin, Powell & Emami-Naeini (2019), Feedback Control of
+//! Exact for actuators that are linear between samples. Franklin, Powell & Emami-Naeini (2019), Feedback Control of
 //! Dynamic Systems, ch. 3.
 
 use crate::effects::actuation::actuators;

@@ -1,5 +1,5 @@
-//! Asymmetric lag of the actuation: the outputs follow the actuators as a low-pass filter that is slower one way than the other, as what
-//! fills and vents, heats and cools, or extends and retracts.
+//! Asymmetric lag of the actuation: the outputs follow the actuators as a low-pass filter that is slower one way, as in
+//! filling and venting, heating and cooling, extending and retracting.
 //!
 //! ```text
 //! τ_u dq̃/dt = q − q̃ where q > q̃,   τ_d dq̃/dt = q − q̃ where q < q̃,   τ_u = τ e^a,   τ_d = τ e^{−a},   q̃(t_0) = q(t_0)
@@ -9,9 +9,9 @@
 //! | `τ`    | geometric mean of both time constants                                | s    |
 //! | `a`    | asymmetry, −2 to 2: above 0 it rises more slowly than it falls       | 1    |
 //!
-//! All actuators lag alike, or one of a few by itself. At a = 0 it is `actuator_lag`. Exact for actuators that move straight between
+//! All actuators lag alike, or one of a few by itself. At a = 0 it is `actuator_lag`. Exact for actuators that are linear between
 //! samples ([`crate::effects::memory::AsymmetricLag`]). Joshi & Paik (2021), Pneumatic supply system parameter optimization for soft
-//! actuators, Soft Robotics 8(2), for the times in which pressures rise and fall.
+//! actuators, Soft Robotics 8(2), for rise and fall times of pressures.
 
 use crate::effects::actuation::actuators;
 use crate::effects::memory::{AsymmetricLag as Follower, Decays, Last};
@@ -24,7 +24,7 @@ pub struct AsymmetricLag;
 const TAUS: usize = 12;
 const ASYMMETRIES: [f64; 4] = [-0.9, -0.3, 0.3, 0.9];
 
-/// Largest asymmetry: one way is e^4 = 55 times as slow as the other.
+/// Largest asymmetry: one time constant is e^4 = 55 times the other.
 const LARGEST: f64 = 2.0;
 
 impl Effect for AsymmetricLag {

@@ -12,9 +12,9 @@
 //! | `ν`          | speed at which 1/√2 of the friction acts, in half ranges times ω             | 1               |
 //! | `m_j`, `h_j` | middle of the recorded range of each actuator, half its width                | of the actuator |
 //!
-//! For rigs without an arm: what rubs in an arm are its tendons (`tendon_friction`).
+//! For rigs without an arm: an arm has `tendon_friction`.
 //!
-//! Second order in the time between samples ([`StiffLag`](crate::effects::memory::StiffLag)). Den Hartog (1931), Forced vibrations
+//! Second order in the sampling interval ([`StiffLag`](crate::effects::memory::StiffLag)). Den Hartog (1931), Forced vibrations
 //! with combined Coulomb and viscous friction, Transactions of the ASME 53.
 
 use std::f64::consts::TAU;
@@ -32,9 +32,9 @@ pub struct CoulombDamping;
 /// Parameters before the ends of the ranges.
 const OWN: usize = 6;
 
-/// Largest viscous damping: with more, the mass hardly swings, and the friction is that of a play behind a lag. Before there was a bound,
-/// and before refinements were split, the effect stood for play or hysteresis in two of 28 small rigs of the development seeds 14001 to
-/// 14004 (an axis, a sheath); since then in none. Its sensitivity was not measured.
+/// Largest viscous damping: with more, the mass hardly rings, and the friction is that of a play after a lag. Before there was a
+/// bound, and before refinements were split, the effect replaced play or hysteresis in two of 28 small rigs of the development
+/// seeds 14001 to 14004 (an axis, a sheath); since then in none. Its sensitivity was not measured.
 const SWINGS: f64 = 0.5;
 
 /// Periods, each with two frictions, and a transition that all have, to start from.

@@ -1,4 +1,4 @@
-//! Creep: part of each motion of the actuators comes late.
+//! Creep: part of each actuator motion is delayed.
 //!
 //! ```text
 //! q̃ = q + c (L_τ[q] − q),   τ dL/dt = q − L,   L(t_0) = q(t_0)
@@ -8,7 +8,7 @@
 //! | `c`    | share that comes late; negative where the arm relaxes after a motion | 1    |
 //! | `τ`    | its time constant, all actuators                                     | s    |
 //!
-//! The standard linear solid; a creep of two times is one behind the other. Exact for actuators that move straight between samples.
+//! The standard linear solid; two time constants are two creeps in series. Exact for actuators that are linear between samples.
 //! Findley, Lai & Onaran (1976), Creep and Relaxation of Nonlinear Viscoelastic Materials, ch. 5.
 
 use crate::effects::actuation::actuators;

@@ -1,4 +1,4 @@
-//! Dead time: the model sees each actuator as it was a moment ago.
+//! Dead time: the model sees each actuator with a fixed delay.
 //!
 //! ```text
 //! q̃(t) = q(t − Δ)
@@ -7,7 +7,7 @@
 //! | symbol | meaning       | unit |
 //! | `Δ`    | dead time ≥ 0 | s    |
 //!
-//! A tip that is ahead of its actuators is none of this: their clock is late.
+//! A tip ahead of its actuators is no dead time: their clock is late.
 //! Normey-Rico & Camacho (2007), Control of Dead-time Processes, ch. 1.
 
 use crate::effects::actuation::actuators;

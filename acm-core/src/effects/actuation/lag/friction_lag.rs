@@ -9,7 +9,7 @@
 //! | `w_j`  | what friction takes; 0 for actuators far from zero | of the actuator |
 //!
 //! At rest it is a dead zone of half width w; unlike a dead zone before a lag, q̃ comes to zero in a finite time. At w = 0 it is
-//! `actuator_lag`. Exact for actuators that move straight between samples. Armstrong-Hélouvry, Dupont & Canudas de Wit (1994),
+//! `actuator_lag`. Exact for actuators that are linear between samples. Armstrong-Hélouvry, Dupont & Canudas de Wit (1994),
 //! A survey of models, analysis tools and compensation methods for the control of machines with friction, Automatica 30(7).
 
 use crate::effects::actuation::actuators;

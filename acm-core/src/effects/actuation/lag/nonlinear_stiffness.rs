@@ -1,4 +1,4 @@
-//! Nonlinear stiffness: the outputs follow the actuators as a mass on a spring that hardens, or softens, as it goes out.
+//! Nonlinear stiffness: the outputs follow the actuators as a mass on a spring that hardens or softens with deflection.
 //!
 //! ```text
 //! z'' + 2ζω z' + ω² s(z) = ω² x,   x = (q − m)/h,   q̃ = m + h z,   ω = 2π/P,   at rest at t_0
@@ -12,8 +12,8 @@
 //! | `c`          | where in −1 … 1 the spring is as soft, or as hard, as a linear one           | 1               |
 //! | `m_j`, `h_j` | middle of the recorded range of each actuator, half its width                | of the actuator |
 //!
-//! sin(κz)/κ = z + k z³ + … is gravity's pull on a pendulum. Second order in the time between samples ([`StiffLag`]); no state goes
-//! farther than 30 half ranges from its actuator. Duffing (1918), Erzwungene Schwingungen bei veränderlicher Eigenfrequenz; Kovacic &
+//! sin(κz)/κ = z + k z³ + … is gravity on a pendulum. Second order in the sampling interval ([`StiffLag`]); states stay within 30
+//! half ranges of their actuator. Duffing (1918), Erzwungene Schwingungen bei veränderlicher Eigenfrequenz; Kovacic &
 //! Brennan (2011), The Duffing Equation, ch. 1.
 
 use std::f64::consts::TAU;

@@ -1,4 +1,4 @@
-//! Vessel that fills by the actuators and empties by Torricelli's law: what flows out follows what flows in, the slower the higher it stands.
+//! Vessel filled by the actuators and emptied by Torricelli's law: the outflow follows the inflow, more slowly at higher levels.
 //!
 //! ```text
 //! τ (1 + κ z) dz/dt = x − z,   x = (q − m)/h,   q̃ = m + h z,   q̃(t_0) = q(t_0)
@@ -9,10 +9,10 @@
 //! | `κ`          | 0 to 1: how near to none the least flow of the range is, all actuators       | 1               |
 //! | `m_j`, `h_j` | middle of the recorded range of each actuator, half its width                | of the actuator |
 //!
-//! With A dy/dt = w − o and o = c √y, the flow out o follows the flow in w by (2A/c²) o do/dt = w − o; no flow is z = −1/κ. The level is
-//! (o/c)², a static map. Vessels that empty into one another are a chain of it. At κ = 0 it is `actuator_lag`. Second order in the
-//! time between samples ([`memory::VaryingLag`]). Seborg, Edgar, Mellichamp & Doyle (2016), Process Dynamics and Control, 4th ed., ch. 2.4.5
-//! (liquid storage systems).
+//! With A dy/dt = w − o and o = c √y, the outflow o follows the inflow w by (2A/c²) o do/dt = w − o; zero flow is z = −1/κ. The
+//! level is (o/c)², a static map. Vessels in series are a chain of it. At κ = 0 it is `actuator_lag`. Second order in the
+//! sampling interval ([`memory::VaryingLag`]). Seborg, Edgar, Mellichamp & Doyle (2016), Process Dynamics and Control, 4th ed.,
+//! ch. 2.4.5 (liquid storage systems).
 
 use crate::effects::actuation::actuators;
 use crate::effects::{

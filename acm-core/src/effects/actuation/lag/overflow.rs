@@ -10,9 +10,9 @@
 //! | `β`                | brim: what flows out of the full vessel is 1/β of h above the least inflow, 0 to 5 | 1    |
 //! | `c`                | share of what overflows that goes on with the outflow, 0 to 1                     | 1    |
 //!
-//! At β = 0 it has no brim, and is `outflow`; up to 1/2 nothing overflows within the range. A tank whose level is measured has c = 0; of two
-//! tanks one below the other the lower one catches a part of what the upper one spills. The brim is reached at a sample: first order in the
-//! time between samples where it overflows, second order elsewhere ([`memory::VaryingLag`]). Schoukens & Noël (2017), Three benchmarks
+//! At β = 0 it has no brim, and is `outflow`; up to 1/2 nothing overflows within the range. A tank whose level is measured has c = 0;
+//! the lower of two stacked tanks catches a part of what the upper one spills. The brim is reached at a sample: first order in the
+//! sampling interval where it overflows, second order elsewhere ([`memory::VaryingLag`]). Schoukens & Noël (2017), Three benchmarks
 //! addressing open challenges in nonlinear system identification, IFAC-PapersOnLine 50(1), sec. 3 (cascaded tanks).
 
 use crate::effects::actuation::actuators;

@@ -7,7 +7,7 @@
 //! | symbol | meaning                                              | unit                        |
 //! | `s_j`  | slowness, one over the highest speed; 0 is no limit  | seconds per unit of the actuator |
 //!
-//! Exact for actuators that move straight between samples. Franklin, Powell & Emami-Naeini (2019), Feedback Control of
+//! Exact for actuators that are linear between samples. Franklin, Powell & Emami-Naeini (2019), Feedback Control of
 //! Dynamic Systems, ch. 9.
 
 use crate::effects::actuation::actuators;
@@ -54,7 +54,7 @@ impl Effect for RateLimit {
         rig.actuators.iter().map(slowness).collect()
     }
 
-    /// By the time that an actuator needs for its travel.
+    /// Times that an actuator needs for its travel.
     fn initial_guesses(&self, rig: &Rig, carrier: Carrier) -> Vec<Vec<f64>> {
         let slowness = |j: usize, time: &f64| time / rig.actuators[j].span();
         guesses::of_each(rig, &self.parameters(rig, carrier), &times::grid(rig), slowness)

@@ -8,7 +8,7 @@
 //! | `P`    | natural period, all actuators     | s    |
 //! | `ζ`    | damping, all actuators            | 1    |
 //!
-//! Exact for actuators that move straight between samples. Franklin, Powell & Emami-Naeini (2019), Feedback Control of
+//! Exact for actuators that are linear between samples. Franklin, Powell & Emami-Naeini (2019), Feedback Control of
 //! Dynamic Systems, ch. 3.
 
 use std::f64::consts::TAU;

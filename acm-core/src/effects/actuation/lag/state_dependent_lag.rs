@@ -1,4 +1,4 @@
-//! Lag that depends on the state: the outputs follow the actuators the slower, or the faster, the further out they are.
+//! State-dependent lag: the outputs follow the actuators with a time constant that depends on the state.
 //!
 //! ```text
 //! τ(q̃) dq̃/dt = q − q̃,   τ = τ0 (ρ + (1 − ρ) (1 + κ z) (1 + |λ| z²)^{sgn λ}),   z = (q̃ − m)/h within −1 … 1,   q̃(t_0) = q(t_0)
@@ -11,9 +11,9 @@
 //! | `ρ`          | share of it that depends on nothing, 0 to 0.9, all actuators       | 1               |
 //! | `m_j`, `h_j` | middle of the recorded range of each actuator, half its width      | of the actuator |
 //!
-//! So empties a tank, whose outflow follows Torricelli's law: linearised at a level, its τ grows with the level; and so follows the
-//! current of a coil whose iron saturates, the faster the larger it is: its inductance falls as 1/(1 + (i/i_s)²) to that of the air, ρ.
-//! At κ = λ = 0 it is `actuator_lag`. Second order in the time between samples ([`memory::VaryingLag`]). Seborg, Edgar, Mellichamp & Doyle (2016),
+//! Examples: a tank that empties by Torricelli's law, whose τ, linearised at a level, grows with the level; a coil whose iron
+//! saturates, whose inductance falls with the current as 1/(1 + (i/i_s)²) to that of the air, ρ. At κ = λ = 0 it is
+//! `actuator_lag`. Second order in the sampling interval ([`memory::VaryingLag`]). Seborg, Edgar, Mellichamp & Doyle (2016),
 //! Process Dynamics and Control, 4th ed., ch. 4; Fitzgerald, Kingsley & Umans (2003), Electric Machinery, 6th ed., 1.3 (saturation).
 
 use crate::effects::actuation::actuators;

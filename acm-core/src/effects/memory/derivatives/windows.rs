@@ -1,4 +1,4 @@
-//! Polynomials through windows, as many side by side as a vector register holds; each by itself has the same bits.
+//! Polynomials in several windows at a time, as many as a vector register holds; bit for bit as one at a time.
 
 use pulp::{Arch, Simd, WithSimd};
 
@@ -15,8 +15,8 @@ pub(super) const PRODUCTS: usize = 9;
 /// Sums of powers, and of those times the signal.
 pub(super) type Sums = [f64; POWERS + PRODUCTS];
 
-/// What shrinks τ³ and τ⁴ of the quartic, as a share of the samples: 2 and 7 % where they fill the window, and all the way to the
-/// parabola where they do not tell them.
+/// Ridge on τ³ and τ⁴ of the quartic, as a share of the samples: shrinks them by 2 and 7 % where samples fill the window, and to
+/// the parabola where they are undetermined.
 const RIDGE: f64 = 1e-4;
 
 /// Sums over windows, and what is fitted to them.
@@ -26,7 +26,7 @@ pub(super) struct Windows {
     /// The sums about the middle of a block, and the time from there to the sample, in windows.
     sums: [[f64; TOGETHER]; POWERS + PRODUCTS],
     centre: [f64; TOGETHER],
-    /// How far the polynomial is the quartic, and else the parabola.
+    /// Share of the quartic; the rest is the parabola.
     share: [f64; TOGETHER],
 }
 
@@ -50,7 +50,7 @@ impl Windows {
         self.count += 1;
     }
 
-    /// c_0, c_1 and c_2 of each, of the quartic by its share and else of the parabola; none where the samples do not tell them.
+    /// c_0, c_1 and c_2 of each, of the quartic by its share and else of the parabola; none where they are undetermined.
     pub(super) fn fitted(&self) -> impl Iterator<Item = Option<[f64; 3]>> + use<> {
         let mut fits = Fits::default();
         if self.count > 0 {
@@ -65,10 +65,10 @@ impl Windows {
 #[derive(Debug, Default)]
 struct Fits {
     parabola: [[f64; TOGETHER]; 3],
-    /// Positive where the samples tell the parabola.
+    /// Positive where the parabola is determined.
     told: [[f64; TOGETHER]; 2],
     quartic: [[f64; TOGETHER]; 3],
-    /// All positive where the samples tell the quartic.
+    /// All positive where the quartic is determined.
     pivots: [[f64; TOGETHER]; 5],
 }
 
@@ -152,7 +152,7 @@ fn shift<T: Real, const N: usize>(moments: &mut [T; N], centre: T) {
 }
 
 /// The first three of five unknowns, and the pivots, which are positive where the matrix is positive definite. The last ones are
-/// eliminated first, and sizes are known when it is compiled: it runs at every sample.
+/// eliminated first. Sizes are compile-time constants, as it runs at every sample.
 #[inline(always)]
 fn first_of_solution<T: Real>(mut a: [[T; 5]; 5], mut b: [T; 5]) -> ([T; 3], [T; 5]) {
     for k in (1..5).rev() {
@@ -170,7 +170,7 @@ fn first_of_solution<T: Real>(mut a: [[T; 5]; 5], mut b: [T; 5]) -> ([T; 3], [T;
     ([first, second, third], std::array::from_fn(|k| a[k][k]))
 }
 
-/// c_0, c_1 and c_2 by normal equations, and two values that are positive where the samples tell them.
+/// c_0, c_1 and c_2 by normal equations, and two values that are positive where these are determined.
 #[inline(always)]
 pub(super) fn parabola<T: Real>(s: &[T; 8]) -> ([T; 3], [T; 2]) {
     // Without the mean: [t2, t3; t3, t4] (b, c) = (y1, y2).

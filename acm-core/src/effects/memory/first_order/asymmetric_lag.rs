@@ -1,9 +1,9 @@
 //! First-order lag with one time constant up and another down: τ_u ż = x − z where x > z, τ_d ż = x − z where x < z; at rest at the
 //! first sample.
 //!
-//! Exact for an input that is straight between samples. Behind one of slope m, x − z relaxes to m τ, and so passes zero at most once in
-//! a piece, after t = τ ln(1 + (x − z)/(−m τ)); from there on z follows with the other time constant. With two that are alike it is
-//! [`Lag`], to the last bit.
+//! Exact for an input that is linear between samples. With slope m, x − z relaxes to m τ, and so passes zero at most once in a
+//! piece, after t = τ ln(1 + (x − z)/(−m τ)); from there on z follows with the other time constant. With equal time constants it
+//! is [`Lag`], bit for bit.
 
 use crate::effects::memory::beside::Beside;
 use crate::effects::memory::lag::relax;
@@ -35,7 +35,7 @@ impl AsymmetricLag {
 
 /// z after a piece of `h` s, in which the input goes from `past` to `x`.
 fn end(z: f64, [past, x]: [f64; 2], h: f64, taus: [f64; 2], strides: [(f64, f64); 2]) -> f64 {
-    // A follower that is where the input is goes where that goes.
+    // A state at the input moves the way the input moves.
     let ahead = if z == past { x - past } else { past - z };
     let way = usize::from(ahead < 0.0);
     let (decay, lasting) = strides[way];

@@ -1,7 +1,7 @@
 //! First-order lag with dry friction: τ ż = x − z − w sgn z; z rests at zero while |x| ≤ w; at rest at the first sample.
 //!
-//! Exact for an input that is straight between samples: between two zeros of z it is a lag behind x − w sgn z, and z reaches zero
-//! where that lag does, which is found by bisection.
+//! Exact for an input that is linear between samples: between two zeros of z it is a lag of x − w sgn z. Its zeros are found by
+//! bisection.
 
 use crate::effects::memory::lag::relax;
 use crate::effects::memory::{Point, State};
@@ -66,7 +66,7 @@ impl Piece {
                     return 0.0;
                 }
             }
-            // From rest it follows the input, or where that is going.
+            // From rest it has the input's sign, or its slope's.
             let heading = [z, self.input(t), self.to - self.from].into_iter().find(|x| *x != 0.0).unwrap_or(0.0);
             let w = width.copysign(heading);
             let next = self.moving(z, t, self.h, w);

@@ -1,7 +1,7 @@
-//! First-order lag whose time constant depends on its input and on where it is: τ b(x, z) ż = x − z; at rest at the first sample.
+//! First-order lag whose time constant depends on its input and its state: τ b(x, z) ż = x − z; at rest at the first sample.
 //!
-//! Over each part of an interval ([`parts`]) the lag is exact for a constant τ, which is that of the means of x and of z at both ends, found
-//! by two passes. Every pass draws z towards the input, so it is stable for every step; second order in the part.
+//! Over each part of an interval ([`parts`]) the lag is exact for a constant τ: that of the means of x and of z at both ends, from
+//! two fixed-point passes. Every pass moves z towards the input, so it is stable for every step; second order in the part.
 
 use crate::effects::memory::lag::relax;
 use crate::effects::memory::substeps::parts;
@@ -45,7 +45,7 @@ impl VaryingLag {
         self.z
     }
 
-    /// Puts z, after a step, where something else holds it.
+    /// Overwrites z after a step, where it is held.
     pub fn hold(&mut self, z: f64) {
         self.z = z;
     }

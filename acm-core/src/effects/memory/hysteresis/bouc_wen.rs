@@ -1,13 +1,13 @@
-//! Bouc–Wen state in units of its saturation, at rest at the first sample unless told otherwise; within ±1.
+//! Bouc–Wen state in units of its saturation, within ±1; at rest at the first sample unless set otherwise.
 //!
 //! ```text
 //! δ dz = dx − ½(1 + a) |dx| |z|^{n−1} z − ½(1 − a) dx |z|^n
 //! ```
 //!
-//! Away from rest, z relaxes to ±1 over the `width` δ; back to rest, it moves at slope 1 + a|z|^n: `asymmetry` a = 1 with exponent
-//! n = 1 is Dahl's state, δ dd = (sgn v − d) |dx|; a = 0 returns on a straight line; a large n yields suddenly. With n = 1 each piece
-//! is exponential, and a step is cut where z passes 0. Other exponents have no closed form: classical Runge–Kutta, in pieces that are
-//! short beside δ/n.
+//! While |z| grows, z relaxes to ±1 over the `width` δ; while it falls, the slope is 1 + a|z|^n. `asymmetry` a = 1 with exponent
+//! n = 1 is Dahl's state, δ dd = (sgn v − d) |dx|; a = 0 returns on a straight line; a large n yields suddenly. With n = 1 each
+//! piece is exponential, and a step is cut where z passes 0. Other exponents have no closed form: classical Runge–Kutta, in
+//! pieces shorter than δ/n.
 
 use super::super::State;
 
@@ -23,7 +23,7 @@ impl State for BoucWen {}
 /// Longest piece in units of δ/n: wrong by less than 1e-4 of saturation.
 const PIECE: f64 = 0.5;
 
-/// Distance from saturation that is none.
+/// Distance that counts as saturated.
 const SATURATED: f64 = 1e-9;
 
 /// Pieces that saturate any state.
@@ -42,7 +42,7 @@ impl BoucWen {
         self.moved(x, width, |z, way| away_of_power(z, way, asymmetry, exponent))
     }
 
-    /// Begins at z where no sample was before.
+    /// Sets z; no effect after a first sample.
     #[inline]
     pub fn begin(&mut self, z: f64) {
         if self.before.is_none() {
@@ -70,7 +70,7 @@ impl BoucWen {
 
 /// The state after a motion of `way` widths in its positive direction.
 fn away(z: f64, way: f64, a: f64) -> f64 {
-    // Dahl's state returns as it came: one law on either side of rest.
+    // Dahl's state has the same law on either side of rest.
     if z >= 0.0 || a == 1.0 {
         return z - (1.0 - z) * (-way).exp_m1();
     }

@@ -1,12 +1,12 @@
-//! Bristles of LuGre friction, whose deflection in units of the sliding one grows with less speed; at rest at the first sample.
+//! LuGre bristle deflection, in units of that of fast sliding; larger at low speed, 0 at the first sample.
 //!
 //! ```text
 //! s ḋ = v − |v| d/g(v),   g = 1 + r e^{−(v/w)²}
 //! ```
 //!
-//! The speed is straight between samples, and an interval in which it turns round is cut there: a turn within an interval is seen even
-//! where the way between its ends is none. Each piece is taken at its mean speed, where d relaxes to ±g over the way s g. At r = 0 it is
-//! Dahl's state over the same ways.
+//! The speed is linear between samples, and an interval is split where it changes sign: a reversal within an interval is seen even
+//! if its net displacement is zero. Each piece is taken at its mean speed, where d relaxes to ±g over the length s g. At r = 0 it
+//! is Dahl's state over the same displacements.
 
 use super::super::{Point, State};
 

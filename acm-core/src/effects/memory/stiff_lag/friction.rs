@@ -6,8 +6,8 @@
 //! r = f s/√(s² + 4w²),   s = v₀ + u − b r
 //! ```
 //!
-//! has one solution for b ≥ 0. Newton's method from the side of the larger |r| comes to it without passing it. Second order in
-//! the part, and stable for every f, w and b.
+//! has one solution for b ≥ 0. Newton's method from the side of the larger |r| converges monotonically. Second order in the
+//! part, and stable for every f, w and b.
 
 /// Smallest transition speed.
 const LEAST: f64 = 1e-12;
@@ -38,7 +38,7 @@ impl Friction {
             return 0.0;
         }
         let (size, wide) = (sum.abs(), wide * wide);
-        // No larger than without the brake; where it would turn the motion round, the mean speed is 0.
+        // No larger than without the brake; where it would reverse the motion, the mean speed is 0.
         let most = self.force * size / (size * size + wide).sqrt();
         let mut r = if brakes * most > size { size / brakes } else { most };
         for _ in 0..STEPS {

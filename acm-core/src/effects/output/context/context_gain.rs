@@ -45,7 +45,7 @@ impl Effect for ContextGain {
     }
 
     fn carriers(&self, rig: &Rig) -> Vec<Carrier> {
-        // What an arm grows by is a scale of its frame.
+        // For an arm this is a scale of its frame.
         if rig.arm.is_some() { vec![] } else { carrying::moving_contexts(rig) }
     }
 

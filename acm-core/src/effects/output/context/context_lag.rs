@@ -1,4 +1,4 @@
-//! A term that follows a context signal late, such as the drift of a sensor whose body warms up behind a recorded temperature.
+//! A term that lags behind a context signal, such as the drift of a sensor whose body warms up after a recorded temperature.
 //!
 //! ```text
 //! ỹ_m = y_m + k_m (c̃ − c_0),   τ dc̃/dt = c − c̃,   c̃(t_0) = c(t_0)

@@ -18,7 +18,7 @@ use crate::effects::{Carrier, Effect, Memory, ParameterSpec, Record, Rig, Site, 
 /// See the head of this file.
 pub struct MeasurementCreep;
 
-/// Largest share. What comes late by more of it is a lag.
+/// Largest share. A larger one is a lag.
 const LARGEST: f64 = 0.3;
 
 impl Effect for MeasurementCreep {

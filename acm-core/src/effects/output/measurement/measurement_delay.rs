@@ -1,4 +1,4 @@
-//! Delay of the measurement: the outputs reach the record a moment after they were.
+//! Delay of the measurement: the outputs are recorded with a fixed delay.
 //!
 //! ```text
 //! ỹ_m(t) = y_m(t − Δ)

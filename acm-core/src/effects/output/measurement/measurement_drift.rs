@@ -1,4 +1,4 @@
-//! Drift of the measurement: every trial starts right, and the outputs wander off at a steady rate.
+//! Drift of the measurement: the outputs drift from the start of every trial at a constant rate.
 //!
 //! ```text
 //! ỹ_m = y_m + v_m (t − t_0)

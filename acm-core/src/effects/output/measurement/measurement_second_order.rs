@@ -8,7 +8,7 @@
 //! | `P`    | natural period, all outputs | s    |
 //! | `ζ`    | damping, all outputs        | 1    |
 //!
-//! Exact for outputs that are straight between samples. Franklin, Powell & Emami-Naeini (2019), Feedback Control of Dynamic
+//! Exact for outputs that are linear between samples. Franklin, Powell & Emami-Naeini (2019), Feedback Control of Dynamic
 //! Systems, ch. 3.
 
 use std::f64::consts::TAU;

@@ -102,7 +102,7 @@ impl Parts {
             for (name, part) in row {
                 match name {
                     None => (),
-                    // The time since the sample before is not straight between samples.
+                    // The time since the sample before is not linear between samples.
                     Some(name) if name == ELAPSED => return None,
                     Some(name) if self.states.contains(name) => (),
                     Some(name) => linear.b.push((i, *scope.get(name)?, register(part))),
@@ -113,7 +113,7 @@ impl Parts {
         Some(linear)
     }
 
-    /// y + Σ size · φ, where neither φ nor any state knows y or a size.
+    /// y + Σ size · φ, where φ and the states are free of y and sizes.
     fn is_additive(&self, definition: &Definition) -> bool {
         let is_size = |name: &str| definition.parameters.get(name).is_some_and(|p| p.silent.is_some());
         let [column] = definition.place.columns() else { return false };

@@ -13,7 +13,7 @@ use super::units::{Dimension, Unit};
 use names::{metres, named, open, unit_of};
 use parts::Parts;
 
-/// A definition as it is carried out.
+/// A compiled definition.
 #[derive(Debug, Clone)]
 pub struct Plan {
     /// Operations on registers.
@@ -32,9 +32,9 @@ pub struct Plan {
     pub now: Vec<usize>,
     /// Registers of the states at the first sample.
     pub start: Vec<usize>,
-    /// Registers of the columns as they leave.
+    /// Registers of the output columns.
     pub results: Vec<usize>,
-    /// How states go on.
+    /// How states advance.
     pub form: Form,
     /// The operations of an update of one state, where each takes on from the one before.
     pub chain: Option<Vec<(Function, usize)>>,
@@ -46,9 +46,9 @@ pub struct Plan {
     pub column: Option<Unit>,
     /// Whether it adds to the columns in proportion to its sizes.
     pub is_additive: bool,
-    /// Whether it is a linear filter of each column, with one set of values and nothing else that it reads.
+    /// Whether it is a linear filter of each column, with one set of values and no inputs.
     pub is_filter: bool,
-    /// Whether what it does is a function of the moment.
+    /// Whether it is a function of the present sample.
     pub is_static: bool,
 }
 

@@ -79,8 +79,7 @@ impl Parts {
         Ok(())
     }
 
-    /// Dimension of a state that starts at 0: what its equation gives without the states that are not known yet, tried
-    /// from the states that are.
+    /// Dimension of a state that starts at 0: from the parts of its equation that hold no state of unknown dimension.
     fn settled(&self, k: usize, named: &Named) -> Dimension {
         let names: Names = named.signals.iter().chain(&named.states).map(|(n, d)| (n.clone(), *d)).collect();
         let found = sides(&self.next[k]).into_iter().find_map(|part| match kind(part, &names) {
@@ -88,7 +87,7 @@ impl Parts {
             _ => None,
         });
         let per = if self.is_rate { Dimension::TIME } else { Dimension::ONE };
-        // A speed whose equation needs itself: what another state's equation says it is.
+        // A speed whose equation needs itself: from the state whose rate it is.
         let of_rate = || {
             let is_it = |part: &Expression| matches!(&part.node, Node::Name(name) if *name == self.states[k]);
             let by = self.next.iter().position(is_it)?;
@@ -115,7 +114,7 @@ impl Parts {
     }
 }
 
-/// The parts of a sum, and what is multiplied or negated to make one: whose dimension is that of the whole.
+/// The terms of sums, `min`, `max` and negations, whose dimension is that of the whole.
 fn sides(expression: &Expression) -> Vec<&Expression> {
     let mut all = vec![expression];
     if let Node::Apply(Function::Add | Function::Subtract | Function::Min | Function::Max | Function::Negative, parts) =

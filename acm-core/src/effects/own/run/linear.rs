@@ -1,4 +1,4 @@
-//! A linear rate on its way through a block: exact steps of states that are forced by inputs.
+//! A linear rate over a block: exact steps of states that are forced by inputs.
 
 use super::super::phi::{Square, Step, System};
 use super::super::plan::{Linear, Plan};

@@ -1,4 +1,4 @@
-//! A plan on its way through a trial: columns side by side, a block of samples at a time.
+//! A plan evaluated over a trial: columns side by side, a block of samples at a time.
 //!
 //! Register r holds sample k of column l at r·stride + k·L + l, where L columns are acted on alike. Constants are computed once,
 //! what depends on no state for the whole block, and states sample by sample.
@@ -17,7 +17,7 @@ use crate::effects::memory::{Derivatives, State};
 /// Samples of a block: few enough for the registers to stay near the processor.
 const BLOCK: usize = 64;
 
-/// What is kept from one piece of a trial to the next, and room to work in.
+/// State between two pieces of a trial, and work buffers.
 #[derive(Debug, Default)]
 pub struct Track {
     pub(super) begun: bool,
@@ -46,7 +46,7 @@ impl Clone for Track {
         own
     }
 
-    /// Room to work in is none of the memory.
+    /// Work buffers are no memory.
     fn clone_from(&mut self, other: &Self) {
         (self.begun, self.time) = (other.begun, other.time);
         self.states.clone_from(&other.states);

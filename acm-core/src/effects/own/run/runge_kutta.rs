@@ -1,4 +1,4 @@
-//! A rate that is not linear on its way through a block: the classical Runge–Kutta method, with inputs straight between samples.
+//! A nonlinear rate over a block: the classical Runge–Kutta method, with inputs linear between samples.
 
 use super::super::plan::Plan;
 use super::super::program::{Class, run};
@@ -55,7 +55,7 @@ impl Plan {
         }
     }
 
-    /// Rates at `share` of the way to sample `k`, where states have gone `reach` seconds at the rates of the stage before.
+    /// Rates at `share` of the way to sample `k`, with states advanced by `reach` seconds at the rates of the last stage.
     fn rates(&self, rates: &[usize], block: &Block, track: &mut Track, k: usize, (share, reach): (f64, f64)) {
         let lanes = block.lanes;
         for (i, &before) in self.before.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! States on their way through a block: their start, their rest where all sizes are silent, and updates.
+//! States over a block: their start, their reset where all sizes are silent, and updates.
 
 use super::super::function::Function;
 use super::super::phi::MOST;
@@ -49,14 +49,14 @@ impl Plan {
         }
     }
 
-    /// What a state starts at, at sample `k`.
+    /// Starts the states at sample `k`.
     pub(super) fn begin(&self, block: &Block, track: &mut Track, k: usize, lane: usize) {
         for (&start, &now) in self.start.iter().zip(&self.now) {
             track.buffer[block.at(now, k, lane)] = track.buffer[block.at(start, k, lane)];
         }
     }
 
-    /// At the first sample of a trial all states are at their start: whether this is it.
+    /// Whether this is a trial's first sample; if so, sets all states to their start.
     pub(super) fn begins(&self, block: &Block, track: &mut Track, k: usize) -> bool {
         let is = k == 0 && !track.begun;
         (0..if is { block.lanes } else { 0 }).for_each(|lane| self.begin(block, track, k, lane));
@@ -92,7 +92,7 @@ impl Plan {
         }
     }
 
-    /// One state that each operation takes on from the one before: it stays in a register of the processor.
+    /// One state that a chain of operations updates; it stays in a processor register.
     fn follow(&self, chain: &[(Function, usize)], block: &Block, track: &mut Track) {
         let first = usize::from(self.begins(block, track, 0));
         for lane in 0..block.lanes {
