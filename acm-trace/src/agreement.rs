@@ -1,4 +1,4 @@
-//! Agreement of the model that is saved with the regression that it comes from.
+//! Agreement of the saved model with the regression it comes from.
 //!
 //! ```text
 //! d² = Σ_s ‖r_saved − r_fit‖² / (n + Σ_s ‖r_fit‖²)
@@ -7,10 +7,10 @@
 //! | symbol    | meaning                                                                                     | shape |
 //! | `r_fit`   | residual of the regression at the compared samples of development trial s                    | N × M |
 //! | `r_saved` | residual of the model, without the initial state and the offset that the regression takes out | N × M |
-//! | `n`       | sum of squares that hardly counts                                                            |       |
+//! | `n`       | negligible sum of squares                                                                    |       |
 //!
-//! The regression is linear in the nominal map and in the sizes of effects. In the model, frame and output effects act on that map too:
-//! the two part where a large map cancels a large effect.
+//! The regression is linear in the nominal map and in the sizes of effects. In the model, frame and output effects also act on that map.
+//! The two differ where a large map cancels a large effect.
 
 use crate::assemble::Assembled;
 use crate::fit::problem::Problem;

@@ -17,7 +17,7 @@ use crate::fit::problem::Problem;
 use crate::fit::projected::{Projected, project};
 use crate::fit::state::State;
 
-/// A state as it predicts.
+/// A state as a predictive model.
 #[derive(Debug, Clone)]
 pub struct Assembled {
     /// Nominal model with its static map.
@@ -26,7 +26,7 @@ pub struct Assembled {
     pub effects: Vec<(Instance, Vec<f64>)>,
     /// Delay of the actuators' time stamps, s.
     pub clock: f64,
-    /// What actuators do between samples.
+    /// Inter-sample behaviour of the actuators.
     pub inter_sample: InterSample,
     /// Polynomial that approximates the given prediction.
     stands_for: Option<Polynomial>,
@@ -70,7 +70,7 @@ impl Assembled {
         }
     }
 
-    /// Returns a model like any other.
+    /// Returns the model.
     pub fn model(&self) -> AugmentedModel {
         let (response, effects) = (self.response.clone(), self.effects.clone());
         let model = AugmentedModel::assembled(self.rig.clone(), response, self.stands_for.clone(), effects);
@@ -120,8 +120,8 @@ fn kinks(problem: &Problem, form: Form, first: usize, fitted: &Projected) -> Vec
     places.enumerate().map(kink).collect()
 }
 
-/// Returns the straight part of a polynomial of the normalised inputs as one of the inputs themselves, with the powers from 2 on and the
-/// kinks as a static map.
+/// Returns the linear part of a polynomial of the normalised inputs as a polynomial of the inputs themselves, with the higher powers and
+/// the kinks as a static map.
 fn polynomial(problem: &Problem, form: Form, fitted: &Projected) -> Response {
     let degree = form.degree.unwrap_or(0);
     let (actuators, width) = (problem.rig.actuators.len(), problem.outputs());
@@ -197,7 +197,7 @@ mod tests {
         }
     }
 
-    /// Oracle: y = 1 + 2 q − q² + q³/4 on −1 … 1. Up to a quarter beyond it is the polynomial; far out its straight part goes on.
+    /// Oracle: y = 1 + 2 q − q² + q³/4 on −1 … 1. Up to a quarter beyond, it is the polynomial; far out, only its linear part grows.
     #[test]
     fn a_polynomial_goes_on_straight() {
         let rig = bench::rig(&["q"], &[], &["y"]);
@@ -222,7 +222,7 @@ mod tests {
         );
     }
 
-    /// Oracle: y = T₄(a) b, where b is held at two values: with and without a base the saved model says what the formula says.
+    /// Oracle: y = T₄(a) b, where b is held at two values: the saved model equals the formula with and without a base.
     #[test]
     fn a_map_of_limited_powers_is_saved() {
         let rig = bench::rig(&["a", "b"], &[], &["y"]);
@@ -244,8 +244,8 @@ mod tests {
         }
     }
 
-    /// Oracle: y = |q| − 2 q on −1 … 1, by a line and a kink in the middle. Without a base the lines go on; beside one the value at the end
-    /// of the range stays.
+    /// Oracle: y = |q| − 2 q on −1 … 1, by a line and a kink in the middle. Without a base the lines continue; with one the value at the
+    /// end of the range is held.
     #[test]
     fn kinks_are_saved() {
         let rig = bench::rig(&["q"], &[], &["y"]);

@@ -6,11 +6,11 @@
 //! | static map | as in use | the calibration trials |
 //! | recalibrated | as in use | calibration and development trials |
 //!
-//! In use is the nominal model, completed from the development trials where it can be ([`crate::nominal_fit::Nominal::in_use`]).
-//! Degree and ridge are chosen by blocks left out, as those of the result are. Where no effect is found, the result is the simplest of
-//! the three that the next does not improve on: a paired t over the blocks of the development trials, which are left
-//! out of the third. Where there are calibration trials, the first has not seen them, and the second only by the completion of its base.
-//! Effects are accepted against the third; where one of the others is the result without them, they have to improve on that, too.
+//! The model in use is the nominal model, completed from the development trials where possible ([`crate::nominal_fit::Nominal::in_use`]).
+//! Degree and ridge are chosen by cross-validation, as for the result. Without effects, the result is the simplest baseline that the next
+//! does not improve on, by a paired t over the blocks of the development trials, which are left out of the third. With calibration trials,
+//! the first has not seen the development trials, and the second only through the completion of its base. Effects are accepted against the
+//! third; where another baseline is the result without them, they must improve on it too.
 
 use acm_core::augmented::AugmentedModel;
 use acm_core::response::Response;
@@ -30,7 +30,7 @@ use crate::series::Series;
 /// Index of the third baseline.
 pub(crate) const RECALIBRATED: usize = 2;
 
-/// Returns the three baselines: the nominal model, with its static map, and calibrated again.
+/// Returns the three baselines: nominal, static map, recalibrated.
 pub(crate) fn baselines<'a>(prepared: &'a Prepared, joined: &'a [Series], criteria: &Criteria) -> [Response; 3] {
     let fitted = |series: &'a [Series]| {
         let problem = problem(prepared, series);
@@ -51,8 +51,8 @@ pub(crate) fn baselines<'a>(prepared: &'a Prepared, joined: &'a [Series], criter
     }
 }
 
-/// Returns the index of the simplest baseline that the next does not improve on; `recalibrated` are the losses of the third, blocks
-/// left out.
+/// Returns the index of the simplest baseline that the next does not improve on; `recalibrated` has the cross-validated losses of the
+/// third.
 pub(crate) fn simplest(
     prepared: &Prepared,
     problem: &Problem,
@@ -69,7 +69,7 @@ pub(crate) fn simplest(
     first_unsurpassed(&[of(&baselines[0]), of(&baselines[1]), recalibrated], level)
 }
 
-/// Returns whether a model with effects improves on a baseline, offsets of trials taken out; `losses` are of blocks left out.
+/// Returns whether a model with effects improves on a baseline, without trial offsets; `losses` are cross-validated.
 pub(crate) fn is_improved_on(
     baseline: &Response,
     prepared: &Prepared,
@@ -80,7 +80,7 @@ pub(crate) fn is_improved_on(
     improves(&losses_of(prepared, problem, baseline), &of_development(problem, losses), level)
 }
 
-/// Returns the sums of squares that a baseline leaves of development trials, block by block.
+/// Returns the residual sum of squares of a baseline in each block of the development trials.
 fn losses_of(prepared: &Prepared, problem: &Problem, response: &Response) -> Losses {
     let model = without_effects(prepared, response.clone());
     let of = |s: usize| without_offset(problem.offset_share, problem.residual_of(&model, s));

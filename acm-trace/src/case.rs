@@ -16,7 +16,7 @@ pub struct Trial {
     pub name: String,
     /// Signals.
     pub record: Record,
-    /// Signals right before the trial, where it was cut out of a longer record: what the effects remember at its start.
+    /// Signals right before the trial, where it was cut from a longer record: they set the initial memory of effects.
     pub lead: Option<Record>,
     /// Measured outputs [T×M], SI.
     pub measured: DMatrix<f64>,
@@ -28,9 +28,9 @@ pub struct Trial {
 }
 
 impl Trial {
-    /// Returns the signals from the start of the lead on, and the number of samples that lead: a multiple of `stride`.
+    /// Returns the lead and the trial joined, and the number of lead samples: a multiple of `stride`.
     pub fn led(&self, stride: usize) -> (Cow<'_, Record>, usize) {
-        // A prediction that came with the data begins with the trial.
+        // Given predictions begin with the trial.
         let Some(lead) = self.lead.as_ref().filter(|_| self.predicted.is_none()) else {
             return (Cow::Borrowed(&self.record), 0);
         };
@@ -46,13 +46,13 @@ pub struct Case {
     pub rig: Rig,
     /// The nominal model, to be calibrated; ignored where predictions come with the data.
     pub nominal: NominalSpec,
-    /// Position s/L of each marker; empty where the outputs are no markers.
+    /// Position s/L of each marker; empty where the outputs are not markers.
     pub at: Vec<f64>,
-    /// Outputs that errors are reported of: those of the tip, or all.
+    /// Outputs whose errors are reported: those of the tip, or all.
     pub reported: Range<usize>,
-    /// Trials that calibrate; may be empty: then the development trials do.
+    /// Calibration trials; where empty, the development trials calibrate.
     pub calibration: Vec<Trial>,
-    /// Trials that an effect is found on.
+    /// Trials on which effects are found.
     pub development: Vec<Trial>,
 }
 

@@ -1,4 +1,4 @@
-//! Closing the loop: from a case to a finding, with the model that has what was found.
+//! Closing the loop: from a case to a finding and the completed model.
 
 use acm_core::InterSample;
 use acm_core::augmented::AugmentedModel;
@@ -43,16 +43,16 @@ pub struct About {
     pub version: String,
     /// Caveats that weaken the conclusion.
     pub cautions: Vec<String>,
-    /// Half of the 95 % interval of the offset between the clocks of actuators and outputs, s; 0 of one clock, or a given offset.
+    /// Half of the 95 % interval of the offset between the clocks of actuators and outputs, s; 0 with one clock or a given offset.
     pub clock_interval: f64,
 }
 
-/// A finding, and the model that has what was found.
+/// A finding, and the model with what was found.
 #[derive(Debug, Clone)]
 pub struct Closed {
     /// Result that is written to `loop.json`.
     pub finding: Finding,
-    /// A model like any other.
+    /// Completed model.
     pub model: AugmentedModel,
 }
 
@@ -154,7 +154,7 @@ fn joined_series(prepared: &Prepared) -> Vec<Series> {
     all
 }
 
-/// Returns what was before each trial, of those of which it is known.
+/// Returns the actuator history of each trial that has one.
 fn ways(traced: &Traced) -> Vec<BeforeTrial> {
     let known = traced.problem.series.iter().zip(&traced.histories);
     let told = known.filter_map(|(series, before)| Some((series.name.clone(), before.as_ref()?)));
@@ -179,7 +179,7 @@ fn verdict(traced: &Traced, effects: &[FoundEffect], left: &Left) -> Verdict {
     evidence.verdict()
 }
 
-/// Returns the names of the actuators that a model holds between samples, and of those that it takes along a quartic.
+/// Returns the names of the actuators with zero-order hold, and of those with quartic interpolation.
 fn between_samples(model: &AugmentedModel) -> [Vec<String>; 2] {
     let inter_sample = model.inter_sample();
     let names = inter_sample.actuators().iter().map(|&a| model.rig().actuators[a].name.clone()).collect();

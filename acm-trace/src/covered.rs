@@ -1,6 +1,6 @@
-//! Where trials determine a model, and where it is only continued.
+//! Where trials determine a model, and where it extrapolates.
 //!
-//! Calibration trials that hold an actuator at no more values than the degree of the nominal form leave its polynomial open: beyond these
+//! Calibration trials with no more values of an actuator than the degree of the nominal form do not determine its polynomial: beyond these
 //! values its error is as large as that of any effect.
 
 use acm_core::nominal::NominalSpec;
@@ -13,12 +13,12 @@ use crate::search::nuisance::held::clusters;
 /// A box of actuators.
 #[derive(Debug, Clone, PartialEq)]
 struct Covered {
-    /// Lowest and highest value of each actuator; without bounds where the trials determine the polynomial everywhere.
+    /// Lowest and highest value of each actuator; infinite where the trials determine the polynomial everywhere.
     ranges: Vec<(f64, f64)>,
 }
 
-/// Returns what a reader has to know where development trials leave the box in which the calibration trials determine a strain model:
-/// up to [`BEYOND`] half ranges from its middle where they hold an actuator at no more values than the degree of its polynomial.
+/// Returns a caution where development trials leave the box in which the calibration trials determine a strain model: up to [`BEYOND`]
+/// half ranges from its middle for an actuator with no more values than the degree of its polynomial.
 pub fn left_open(case: &Case) -> Option<String> {
     let NominalSpec::Strain(arm) = &case.nominal else { return None };
     if case.is_predicted() || case.calibration.is_empty() {
@@ -72,7 +72,7 @@ impl Covered {
     }
 }
 
-/// Returns what a reader has to know where held-out trials leave the actuators of all trials that models are fitted to.
+/// Returns a caution where held-out trials leave the range of all trials that models are fitted to.
 pub fn extrapolated(case: &Case, held_out: &[Trial]) -> Option<String> {
     let widened = |a: usize| {
         let (own, other) = (range(case.calibration.iter().chain(&case.development), a), range(held_out, a));
@@ -92,7 +92,7 @@ pub fn extrapolated(case: &Case, held_out: &[Trial]) -> Option<String> {
     })
 }
 
-/// Share of samples beyond that is not worth a word, %.
+/// Smallest reported share of samples outside, %.
 const LITTLE: f64 = 1.0;
 
 /// Returns the lowest and the highest value of an actuator.

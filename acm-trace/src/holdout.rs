@@ -31,7 +31,7 @@ pub struct Measure<'m> {
     pub rig: &'m Rig,
     /// Weight of each output.
     pub weight: &'m [f64],
-    /// Outputs that errors are reported of.
+    /// Outputs whose errors are reported.
     pub reported: Range<usize>,
     /// SI unit of the errors.
     pub unit: String,
@@ -60,7 +60,7 @@ pub struct Judged {
 }
 
 impl Holdout {
-    /// Returns the trials that take no part until the end.
+    /// Returns the trials as a held-out set.
     pub fn new(trials: Vec<Trial>) -> Self {
         Self { trials }
     }
@@ -80,8 +80,8 @@ impl Holdout {
         &self.trials
     }
 
-    /// Predicts every trial with the baselines and with the effects; `modes` are those of the effects, and `common` is
-    /// what the actuators did before the development trials, where that was alike.
+    /// Predicts every trial with the baselines and with the effects; `modes` are those of the effects, and `common` is the history that
+    /// the development trials share, if any.
     pub fn judge(
         &self,
         baselines: [&AugmentedModel; 3],
@@ -93,7 +93,7 @@ impl Holdout {
         let of = |model: &AugmentedModel| -> Vec<DMatrix<f64>> {
             self.trials.iter().map(|trial| residual(trial, model, modes, common, measure.weight)).collect()
         };
-        // An unknown state at the start is forgiven to all alike.
+        // An unknown initial state is taken out for all alike.
         let before = baselines.map(of);
         let with = of(after);
         let parts = |residuals: &[DMatrix<f64>]| self.parts(residuals, measure);
@@ -164,7 +164,7 @@ fn centred((trial, residual): (&Trial, &DMatrix<f64>)) -> DMatrix<f64> {
     rest
 }
 
-/// Returns whether each sample is measured, and not in the warm-up, which ends before a trial that something long enough leads up to.
+/// Returns whether each sample is measured, and after the warm-up, which a long enough lead covers.
 fn counts(trial: &Trial) -> Vec<bool> {
     let begin = warm_up(&trial.led(1).0.time);
     let finite = |t: usize| trial.measured.row(t).iter().all(|y| y.is_finite());

@@ -1,4 +1,4 @@
-//! Calibration of the nominal model before any effect, and the polynomial that approximates it where inputs are moved.
+//! Calibration of the nominal model before any effect, and the polynomial that approximates it where inputs change.
 
 use acm_core::calibration::{CalibrationError, calibrate};
 use acm_core::completed;
@@ -18,8 +18,8 @@ const STANDING_DEGREE: usize = 3;
 /// Largest number of the polynomial's coefficients for each output.
 const STANDING_TERMS: usize = 40;
 
-/// Calibrates the nominal model on the calibration trials; `is_open` where they leave a part of it open. Where predictions come with the
-/// data, it fits a polynomial to them, and stores the difference in every trial of the case.
+/// Calibrates the nominal model on the calibration trials; `is_open` if they leave part of it undetermined. Where predictions come with
+/// the data, it fits a polynomial to them, and stores the difference in every trial of the case.
 ///
 /// # Errors
 /// A calibration that is impossible.
@@ -36,8 +36,8 @@ pub fn calibrate_nominal(case: &mut Case, is_open: bool) -> Result<Nominal, Cali
     Ok(Nominal { model, completed, stands_for: None, stand_in })
 }
 
-/// Returns a strain model completed from the development trials; none where they calibrate. Where the calibration trials leave it open,
-/// the fit begins from a calibration to all trials as well.
+/// Returns a strain model completed from the development trials; none where they calibrate. Where the calibration trials do not determine
+/// it, the fit also starts from a calibration to all trials.
 fn completion(model: &NominalModel, calibration: &Observations, case: &Case, is_open: bool) -> Option<NominalModel> {
     let NominalModel::Strain(strain) = model else { return None };
     if case.calibration.is_empty() {
@@ -109,7 +109,7 @@ pub struct Nominal {
 }
 
 impl Nominal {
-    /// Returns the model that effects are sought beside: completed where it can be.
+    /// Returns the model to which effects are added: completed where possible.
     pub fn in_use(&self) -> &NominalModel {
         self.completed.as_ref().unwrap_or(&self.model)
     }

@@ -11,7 +11,7 @@ use crate::search::criteria::Criteria;
 pub struct Options {
     /// Criteria for accepting an effect.
     pub criteria: Criteria,
-    /// Samples that the search looks at.
+    /// Number of samples compared.
     pub samples: usize,
     /// Seed of all random numbers.
     pub seed: u64,
@@ -19,7 +19,7 @@ pub struct Options {
     pub only: Vec<String>,
     /// Names of effects that are excluded.
     pub without: Vec<String>,
-    /// Effects of one's own on the rig of the case, beside those of the library.
+    /// User-defined effects on the rig of the case, beside those of the library.
     pub own: Vec<Arc<Own>>,
 }
 

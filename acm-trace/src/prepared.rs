@@ -35,7 +35,7 @@ pub struct Prepared {
     pub library: Vec<Instance>,
     /// The nominal model as a function of the actuators.
     pub response: Response,
-    /// What a reader has to know about the trials.
+    /// Caution about the trials, for the report.
     pub caution: Option<String>,
 }
 
@@ -72,9 +72,8 @@ const BINS: (usize, f64) = (25, 0.7);
 /// Smallest number of trials in which a drift must be seen. In fewer, any slow change explains as much.
 const DRIFTING_TRIALS: usize = 3;
 
-/// Returns whether the trials say anything about an effect where it would act. One that is periodic in an actuator
-/// needs its range to be covered, or the fit oscillates where nothing was recorded; a drift must begin anew in several
-/// trials.
+/// Returns whether the trials can determine an effect. One that is periodic in an actuator needs its range to be covered, or the fit
+/// oscillates where nothing was recorded; a drift must restart in several trials.
 fn is_covered(instance: &Instance, case: &Case) -> bool {
     let traits = instance.effect().traits();
     match instance.carrier() {
@@ -93,14 +92,13 @@ fn is_covered(instance: &Instance, case: &Case) -> bool {
     }
 }
 
-/// Samples of all trials together that a quick look at a candidate is content with.
+/// Number of samples of all trials that suffices for a quick look at a candidate.
 const QUICK: usize = 5000;
 
-/// Largest root mean square error of a line between the samples that are kept, at the samples between, as a share of
-/// their spread.
+/// Largest root mean square error of linear interpolation between the samples that are kept, as a share of their spread.
 const MISSED: f64 = 0.01;
 
-/// Returns the stride of a quick look: as large as [`QUICK`] asks for, if the actuators are smooth enough.
+/// Returns the stride of a quick look: as large as [`QUICK`] allows, if the actuators are smooth enough.
 fn decimation(case: &Case) -> usize {
     let trials = || case.development.iter().chain(&case.calibration);
     let most = (trials().map(|trial| trial.record.samples()).sum::<usize>() / QUICK).max(1);
@@ -109,8 +107,7 @@ fn decimation(case: &Case) -> usize {
     (2..=most).rev().find(is_smooth).unwrap_or(1)
 }
 
-/// Returns the root mean square error of a line between every `every`-th sample, at the samples between, over the
-/// spread of all.
+/// Returns the root mean square error of linear interpolation between every `every`-th sample, over the spread of all.
 fn missed(q: &[f64], every: usize) -> f64 {
     let mean = q.iter().sum::<f64>() / q.len().max(1) as f64;
     let spread = q.iter().map(|q| (q - mean).powi(2)).sum::<f64>();
@@ -131,7 +128,7 @@ fn thinned(trials: &[Trial], case: &Case, options: &Options, every: usize) -> Ve
     trials.iter().map(|trial| Series::new(trial, stride)).collect()
 }
 
-/// Returns weights of one for outputs of one unit; else weights that make the spread of each output 1.
+/// Returns weights of one for outputs of one unit; else weights that make the range of each output 1.
 fn weights(case: &Case) -> Vec<f64> {
     let outputs = &case.rig.outputs;
     if outputs.iter().all(|output| output.unit == outputs[0].unit) {

@@ -5,14 +5,13 @@
 //! ```
 //!
 //! | symbol | meaning                                                                     | shape | unit   |
-//! | `d_a`  | what effect a, of one size for all effects, does to the outputs             | NM    | weighted |
-//! | `d_b`  | what effect b does                                                          | NM    | weighted |
-//! | `J δ`  | what recalibration does, within the 99 % ellipsoid of the calibration       | NM    | weighted |
+//! | `d_a`  | change of the outputs by effect a, of one size for all effects              | NM    | weighted |
+//! | `d_b`  | change by effect b                                                          | NM    | weighted |
+//! | `J δ`  | change by recalibration, within the 99 % ellipsoid of the calibration       | NM    | weighted |
 //!
-//! The least squares are those of [`acm_core::levenberg_marquardt`], with δ projected out. Nothing of the recorded
-//! outputs enters but how well they calibrate the model: the excitation alone decides. Not symmetric, since a richer effect
-//! imitates a poorer one. Two effects stand in one group where each imitates nine tenths of what recalibration leaves of the
-//! other.
+//! The least squares are those of [`acm_core::levenberg_marquardt`], with δ projected out. Recorded outputs enter only through the
+//! precision of the calibration; else the excitation alone decides. Not symmetric, since a richer effect imitates a poorer one. Two
+//! effects are in one group where each imitates nine tenths of what recalibration leaves of the other.
 
 mod anchor;
 mod displacement;
@@ -50,13 +49,13 @@ const SIZE: f64 = 0.01;
 /// Size of every effect where outputs are no lengths, as a share of the spread of the outputs.
 const SHARE: f64 = 0.1;
 
-/// Rows of the matrix at most.
+/// Most rows of the matrix.
 const ROWS: usize = 40;
 
 /// Longest time between samples where there are samples enough, s: a filter of the outputs is seen at this rate.
 const STEP: f64 = 0.1;
 
-/// Largest number of compared numbers: samples times outputs.
+/// Largest number of compared values: samples times outputs.
 const NUMBERS: usize = 30_000;
 
 /// Returns the share of each effect that the others could imitate, in the development trials of a case.

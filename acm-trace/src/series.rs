@@ -1,7 +1,7 @@
 //! One prepared trial: samples that are compared, and the block of each.
 //!
-//! Effects act on the full record. The model is evaluated, and compared with what was measured, at every k-th sample: as
-//! often as the budget allows, and where outputs may be filtered not more seldom than ten times a second.
+//! Effects act on the full record. The model is evaluated, and compared with the measurement, at every k-th sample: as often as the budget
+//! allows.
 
 pub mod before;
 pub mod curved;
@@ -19,11 +19,11 @@ use before::Before;
 pub struct Series {
     /// Name of the trial.
     pub name: String,
-    /// Record of all samples, those that lead up to the trial first, and those that go in between.
+    /// Record of all samples: those of the lead first, and inter-sample values.
     pub record: Record,
-    /// What actuators do between samples.
+    /// Inter-sample behaviour of actuators.
     pub inter_sample: InterSample,
-    /// The N samples that are looked at, as rows of the record.
+    /// The N compared samples, as rows of the record.
     pub rows: Vec<usize>,
     /// The record at these samples.
     pub thin: Record,
@@ -41,7 +41,7 @@ pub struct Series {
     pub calibrates: bool,
 }
 
-/// Time at the start of a trial that may hold traces of what was before it, s; and in samples, where they are seldom.
+/// Warm-up at the start of a trial, which may depend on its history: smallest time, s, and number of samples.
 const WARM_UP: (f64, usize) = (3.0, 20);
 
 /// Largest share of a trial that the warm-up takes.
@@ -84,7 +84,7 @@ impl Series {
         }
     }
 
-    /// Returns the series with the samples that go in between its own; its actuators must go straight.
+    /// Returns the series with inter-sample values; its actuators must be interpolated linearly.
     #[must_use]
     pub fn between(&self, inter_sample: &InterSample) -> Self {
         let (record, rows) = inter_sample.of(&self.record);
@@ -92,7 +92,7 @@ impl Series {
         Self { record, rows, inter_sample: inter_sample.clone(), ..self.clone() }
     }
 
-    /// Returns the series with what its actuators did before it; no samples may lead up to it.
+    /// Returns the series with a history of its actuators; it must have no lead.
     #[must_use]
     pub fn begun(&self, before: &Before) -> Self {
         let record = before.ahead_of(&self.record);
@@ -139,8 +139,8 @@ const PIECES: usize = 5;
 
 /// Numbers the blocks that are left out one at a time: trials, or regions of few trials. Returns whether they are trials.
 ///
-/// A region is made of pieces of time in which the actuators were alike, so that leaving it out asks what a model says where it
-/// has not been, and not only when.
+/// A region consists of pieces of time with similar actuator values, so that leaving it out tests extrapolation in the actuators, and not
+/// only in time.
 pub fn number_blocks(series: &mut [Series]) -> bool {
     if series.len() >= FEW_TRIALS {
         series.iter_mut().enumerate().for_each(|(b, series)| series.block.fill(b));
@@ -160,7 +160,7 @@ pub fn number_blocks(series: &mut [Series]) -> bool {
     false
 }
 
-/// Returns the mean of each actuator in each piece, as a share of its spread in the trial.
+/// Returns the mean of each actuator in each piece, standardised over the trial.
 fn piece_means(series: &Series, pieces: usize) -> Vec<Vec<f64>> {
     let samples = series.samples();
     let mut means = vec![vec![0.0; series.thin.actuators.len()]; pieces];
@@ -205,7 +205,7 @@ fn regions_of(points: &[Vec<f64>], regions: usize) -> Vec<usize> {
 mod tests {
     use super::*;
 
-    /// Oracle: three groups of points that anyone can see, in turn along time.
+    /// Oracle: three distinct groups of points, alternating in time.
     #[test]
     fn regions_follow_the_actuators_and_not_the_clock() {
         let points: Vec<Vec<f64>> = (0..15).map(|k| vec![[-5.0, 0.0, 5.0][k % 3] + 0.01 * k as f64]).collect();

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use nalgebra::{DMatrix, DMatrixView};
 
-/// Columns from which on a product goes through registers in tiles; narrower ones take one pair of columns after the other.
+/// Fewest columns of a product in tiles of registers; narrower ones take one pair of columns after the other.
 pub(crate) const TILE: usize = 6;
 
 /// Computes AᵀB over some rows.

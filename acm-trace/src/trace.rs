@@ -33,7 +33,7 @@ pub use crate::options::Options;
 /// Result of the search.
 #[derive(Debug, Clone)]
 pub struct Traced<'a> {
-    /// The trials that it ended on.
+    /// Trials of the last search.
     pub problem: Problem<'a>,
     /// State without any effect.
     pub bare: State,
@@ -55,13 +55,13 @@ pub struct Traced<'a> {
     pub offsets: Option<Offsets>,
     /// Root mean square of the noise, weighted outputs together.
     pub noise: f64,
-    /// Nominal, with its static map, and calibrated again.
+    /// Nominal, static map, recalibrated.
     pub baselines: [AugmentedModel; 3],
-    /// Model with effects, as it predicts.
+    /// Model with effects.
     pub after: Assembled,
-    /// What the actuators did before each trial; empty where that is of none.
+    /// Actuator history of each trial; empty where none has one.
     pub histories: Vec<Option<Before>>,
-    /// What they did before most of the trials, as far as one for all says it.
+    /// History that most of the trials share, if any.
     pub common: Option<Before>,
 }
 
@@ -104,7 +104,7 @@ pub fn trace<'a>(
     let mut share = 0.0;
     let (mut pass, mut found): (usize, Option<State>) = (0, None);
     let concluded = loop {
-        // What acts inside trials shows once their offsets are out of the way.
+        // Effects within trials show once trial offsets are removed.
         let (problem, quick) = (problem.with_offsets(share), quick.with_offsets(share));
         let mut search = search(prepared, options, Trials { problem: &problem, quick: &quick });
         let selected =
@@ -120,7 +120,7 @@ pub fn trace<'a>(
     finished(prepared, concluded, (steps, baselines), criteria)
 }
 
-/// What is kept of a search, the trials that it ended on, and these about the centres of the contexts where these matter.
+/// What is kept of a search, its trials, and these at the inputs after effects where they differ.
 struct Concluded<'a> {
     kept: Kept,
     /// The trials as they were recorded.
@@ -130,18 +130,18 @@ struct Concluded<'a> {
     histories: Vec<Option<Before>>,
 }
 
-/// How the trials of a search are taken between and before their samples.
+/// Inter-sample behaviour and history of the trials of a search.
 #[derive(Debug, Clone, Default)]
 struct Recorded {
-    /// What actuators do between samples.
+    /// Inter-sample behaviour of actuators.
     inter_sample: InterSample,
-    /// What the actuators did before each trial, where that is known; empty where it is of none.
+    /// Actuator history of each trial, where known; empty where none has one.
     histories: Vec<Option<Before>>,
-    /// Number of searches that began otherwise.
+    /// Number of searches with other histories.
     rounds: usize,
 }
 
-/// Largest number of searches from another beginning of the trials.
+/// Largest number of searches with other histories.
 const ROUNDS: usize = 3;
 
 impl Recorded {
@@ -162,7 +162,7 @@ impl Recorded {
         [problem, quick.with_offsets(share)]
     }
 
-    /// Returns these trials from their first samples on; `problem` has them as they are taken.
+    /// Returns these trials without history; `problem` has them as they are in use.
     fn plain<'a>(&self, prepared: &'a Prepared, joined: &[Series], problem: &Problem<'a>) -> Problem<'a> {
         if self.histories.is_empty() {
             return problem.clone();
@@ -172,7 +172,7 @@ impl Recorded {
     }
 }
 
-/// Searches on from what was found, on trials that begin otherwise, and are held between samples, as long as J falls.
+/// Continues the search from what was found, with other histories and inter-sample behaviour, as long as J falls.
 fn concluded<'a>(
     prepared: &'a Prepared,
     joined: &[Series],
@@ -199,7 +199,7 @@ fn concluded<'a>(
     if !selected.last.effects.is_empty() {
         for inter_sample in may_go_otherwise(prepared, &recorded.inter_sample, &search, &selected) {
             let change = told_between(prepared, &inter_sample);
-            // Effects that stand for what straight lines miss of a bent signal stay where a search goes on from them.
+            // A continued search would keep effects that imitate errors of linear interpolation.
             let is_bent = matches!(inter_sample, InterSample::Quartic(_));
             let (rounds, state) = if is_bent { (0, None) } else { (ROUNDS, Some(selected.last.clone())) };
             others.push((change, Recorded { inter_sample, rounds, ..recorded.clone() }, state));
@@ -228,7 +228,7 @@ fn concluded<'a>(
     Concluded { kept, plain, problem, about, histories: recorded.histories }
 }
 
-/// What is kept of a search, and its trials about the centres of the contexts where these matter.
+/// What is kept of a search, and its trials at the inputs after effects where they differ.
 fn named<'a>(
     mut search: Search<'_, 'a>,
     selected: Selected,
@@ -265,7 +265,7 @@ const QUICK: usize = 1000;
 /// Returns the trials with fewer samples, for a quick look; none where they have few.
 fn quickened(prepared: &Prepared, joined: &[Series]) -> Option<Vec<Series>> {
     let fewer = (joined.iter().map(Series::samples).sum::<usize>() / QUICK).max(1);
-    // What goes in between samples counts.
+    // Inter-sample values must be kept.
     let is_straight = |series: &Series| series.inter_sample == InterSample::Straight;
     let every = if joined.iter().all(is_straight) { prepared.every } else { 1 };
     let quick = |series: &Series| series.decimated(every, fewer);
@@ -291,7 +291,7 @@ fn finished<'a>(
     let is_changed = !last.effects.is_empty() || last.clock != 0.0;
     let negligible = criteria.negligible * sum(&bare_losses);
     let as_saved = || last_losses.iter().map(|loss| loss * excess(&problem, &last, negligible).exp()).collect();
-    // What was found improves on the recalibrated baseline.
+    // Effects were accepted against the recalibrated baseline.
     let improves = is_changed
         && (simplest == RECALIBRATED
             || is_improved_on(&baselines[simplest], prepared, &problem, &as_saved(), criteria.level));

@@ -111,7 +111,7 @@ fn products(time: &[f64], values: &[f64], lag: f64, within: f64, sums: &mut [f64
     pairs
 }
 
-/// Returns the bound that white noise keeps in 95 % of lags: outputs that move together count as fewer.
+/// Returns the bound within which white noise stays in 95 % of lags; correlated outputs count as fewer.
 fn white(remainder: &Remainder) -> f64 {
     let outputs = remainder.outputs();
     let (mean, square) = per_output(remainder);

@@ -1,4 +1,4 @@
-//! Signatures of events that do not carry over from one trial to the next.
+//! Signatures of events that do not transfer between trials.
 //!
 //! ```text
 //! share = (what the signature takes from Σ‖r‖², less what chance takes) / (Σ‖r‖² − N · floor²)
@@ -27,7 +27,7 @@ use crate::finding::Event;
 /// Smallest share that is reported.
 const LEAST_SHARE: f64 = 0.05;
 
-/// The excess counts as this share of the noise at least, so that chance is not divided by nothing.
+/// Smallest excess, as a share of the noise: it avoids a division by almost zero.
 const LEAST_EXCESS: f64 = 0.02;
 
 /// Returns the signatures that explain a twentieth of the excess or more, the largest first.

@@ -1,4 +1,4 @@
-//! Form of an effect: part of the residual on blocks left out that follows what the effect does to the outputs.
+//! Form of an effect: part of the residual on blocks left out that the effect's change of the outputs predicts.
 //!
 //! | columns | of | number |
 //! | --- | --- | --- |
@@ -7,8 +7,8 @@
 //! | d − lag_τ(d) | τ of 4 steps, and of the geometric mean of that and a sixth of a trial | 2M |
 //! | products | of all of these with each actuator and each context | 4M (A + E) |
 //!
-//! An effect of the right kind leaves nothing that follows it. One that imitates another of its kind does: a resonance behind the
-//! nonlinear map instead of before it leaves products of its motion and the actuators. Ridge, blocks left out and significance are those of
+//! An effect of the right form leaves nothing that its change predicts. One that imitates a related effect does: a resonance behind the
+//! nonlinear map instead of before it leaves products of its motion and the actuators. Ridge, folds and significance are those of
 //! [`crate::diagnose::readout`].
 
 use acm_core::effects::memory::lag;
@@ -21,7 +21,7 @@ use crate::finding::Probe;
 
 type Column = Vec<f64>;
 
-/// Tests whether the residual follows an effect; `changes` are the changes of the outputs by it, N×M of each trial.
+/// Tests whether the change of the outputs by an effect predicts the residual; `changes` is N×M for each trial.
 pub fn followed(remainder: &Remainder, changes: &[DMatrix<f64>], seed: u64) -> Probe {
     readout(remainder, seed, |samples, most| {
         let own = own(remainder, changes, samples);
@@ -34,7 +34,7 @@ pub fn followed(remainder: &Remainder, changes: &[DMatrix<f64>], seed: u64) -> P
     })
 }
 
-/// Returns the change of each output, its rate, and what two lags miss of it.
+/// Returns the change d of each output, its rate, and d − lag_τ(d).
 fn own(remainder: &Remainder, changes: &[DMatrix<f64>], samples: &[Sample]) -> Vec<Column> {
     let times = || remainder.trials.iter().map(|trial| trial.record.time.as_slice());
     let mut lengths: Vec<f64> = times().filter_map(|time| Some(time.last()? - time.first()?)).collect();
@@ -63,7 +63,7 @@ fn rate(time: &[f64], x: &[f64]) -> Column {
     (0..x.len()).map(of).collect()
 }
 
-/// Returns what a lag misses of a column.
+/// Returns x − lag_τ(x).
 fn missed(time: &[f64], x: &[f64], tau: f64) -> Column {
     let mut behind = x.to_vec();
     lag(time, &mut behind, |_| tau);

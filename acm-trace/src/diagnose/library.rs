@@ -8,7 +8,7 @@
 //! | t, q t | time since the trial began |
 //! | a | acceleration of the carrier |
 //!
-//! sgn is bent within a tenth of the typical speed, because a rate is known to no better.
+//! sgn is smoothed within a tenth of the typical speed, because rates are no more accurate.
 
 use acm_core::display::significant;
 use acm_core::record::Record;
@@ -20,7 +20,7 @@ use crate::diagnose::samples::{Sample, gather, moments};
 /// Width of the smoothed sign: sgn v = tanh(v / (BEND · typical speed)).
 const BEND: f64 = 0.1;
 
-/// Largest number of actuators with which a product may act on actuators that it does not name.
+/// Largest number of actuators for which a product may act on actuators that it does not contain.
 const FEW_ACTUATORS: usize = 3;
 
 /// One term at N samples.
@@ -32,9 +32,9 @@ pub(crate) struct Term {
     pub values: Vec<f64>,
     /// Root mean square of the term, SI.
     pub scale: f64,
-    /// Number of factors: of two that explain as much, the simpler one is meant.
+    /// Number of factors; of equally good terms the simpler one is chosen.
     pub factors: usize,
-    /// Actuators that it names.
+    /// Actuators in the term.
     of: Vec<usize>,
 }
 

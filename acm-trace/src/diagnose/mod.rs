@@ -2,10 +2,10 @@
 //!
 //! | file | what |
 //! | --- | --- |
-//! | [`residuals`], [`remainder`] | what a state leaves on blocks left out, trial by trial |
-//! | [`noise_floor`], [`autocorrelation`] | white noise, and whether it is white |
+//! | [`residuals`], [`remainder`] | residuals of a state on blocks left out, trial by trial |
+//! | [`noise_floor`], [`autocorrelation`] | level of white noise, and whether the residual is white |
 //! | [`probe`], [`recurrent`] | whether recorded inputs with memory predict it: by regression, by a recurrent network |
-//! | [`followed`] | whether the residual follows what an effect does: its form is not quite right |
+//! | [`followed`] | whether an effect predicts the residual: then its form is not quite right |
 //! | [`events`] | a slip, a spectral line, offsets of trials |
 //! | [`symbolic`] | a sparse formula |
 

@@ -1,4 +1,4 @@
-//! White noise of a signal, from how far each sample lies off the line through its neighbours.
+//! White noise of a signal, from each sample's deviation from the line through its neighbours.
 //!
 //! ```text
 //! e_k = y_k − (w₁ y_{k−1} + w₂ y_{k+1}),   w₁ = (t_{k+1} − t_k)/(t_{k+1} − t_{k−1}),   w₂ = 1 − w₁
@@ -12,10 +12,9 @@
 //! | `s`    | Huber's scale of one stretch, unmoved by a spike or a slip     | of the output |
 //! | `c, β` | 1.5, 0.7785                                                    | 1             |
 //!
-//! A bound from above for white noise: what bends within two steps counts as noise. Of noise that is coloured (by a
-//! filter in the motion capture) only the white part is seen. Scales are averaged over stretches, so that noise which
-//! is not the same everywhere keeps its mean square. Huber (1981), Robust Statistics, § 5.2 (proposal 2); Gasser,
-//! Sroka & Jennen-Steinmetz (1986), Biometrika 73(3).
+//! An upper bound of white noise: curvature within two steps counts as noise. Of coloured noise (from a filter in the motion capture) only
+//! the white part is seen. Scales are averaged over stretches, so that noise of varying level keeps its mean square. Huber (1981), Robust
+//! Statistics, § 5.2 (proposal 2); Gasser, Sroka & Jennen-Steinmetz (1986), Biometrika 73(3).
 
 use rayon::prelude::*;
 
@@ -53,8 +52,8 @@ pub fn noise_floor(remainder: &Remainder) -> f64 {
     (0..outputs).map(of).sum::<f64>().sqrt()
 }
 
-/// Estimates the noise floor of the measured `outputs` of one trial (M columns over `time`, NaN where nothing was
-/// measured). At the full rate of a recording, motion bends less within two steps than in the decimated recording.
+/// Estimates the noise floor of the measured `outputs` of one trial (M columns over `time`, NaN where nothing was measured). At the full
+/// rate of a recording, motion has less curvature within two steps than in the decimated one.
 pub fn noise_floor_of(time: &[f64], outputs: &[Vec<f64>]) -> f64 {
     let step = median_step([time]);
     let of = |values: &Vec<f64>| {
@@ -65,7 +64,7 @@ pub fn noise_floor_of(time: &[f64], outputs: &[Vec<f64>]) -> f64 {
     outputs.iter().map(of).sum::<f64>().sqrt()
 }
 
-/// A sum of squares and how many they are.
+/// A sum of squares and its count.
 #[derive(Debug, Clone, Copy, Default)]
 struct Variance {
     sum: f64,

@@ -9,13 +9,12 @@
 //! | symbol | meaning | shape |
 //! | --- | --- | --- |
 //! | `X` | columns, standardised | N × n |
-//! | `Y` | residuals, and B times the same shifted ([`crate::diagnose::shifted`]) | N × M (B + 1) |
+//! | `Y` | residuals, and B shifted copies ([`crate::diagnose::shifted`]) | N × M (B + 1) |
 //! | `λ` | ridge, as a share of N | 1 |
 //! | `B` | number of shifted residuals | 1 |
 //!
-//! All are solved at once, from one factorisation for each group and setting. A setting is a λ, and all columns or the plain ones
-//! among them; the best is taken for each shifted residual as well, so that the choice is paid for. Stone (1974), J. R. Stat.
-//! Soc. B 36(2) (cross-validation).
+//! All are solved at once, with one factorisation for each group and setting. A setting is a λ with all columns or the plain ones. The
+//! best is taken for each shifted residual too, which accounts for the choice. Stone (1974), J. R. Stat. Soc. B 36(2) (cross-validation).
 
 use std::ops::Range;
 
@@ -27,10 +26,10 @@ use crate::diagnose::samples::{Sample, samples};
 use crate::diagnose::shifted::shifted;
 use crate::finding::Probe;
 
-/// Samples at most.
+/// Largest number of samples.
 const MOST_SAMPLES: usize = 4000;
 
-/// Columns at most, and samples for each column at least.
+/// Most columns, and fewest samples for each column.
 const MOST_COLUMNS: usize = 200;
 const SAMPLES_PER_COLUMN: usize = 5;
 
@@ -52,8 +51,8 @@ pub(crate) struct Columns {
     pub plain: usize,
 }
 
-/// Tests whether the columns that `of` makes of some samples, a given number of them at most, predict the residual
-/// there. Where the data are too few, it returns a probe that explains nothing, with p = 1.
+/// Tests whether columns predict the residual; `of` computes at most the given number of them at some samples. Where the data are too few,
+/// it returns a probe that explains nothing, with p = 1.
 pub(crate) fn readout(remainder: &Remainder, seed: u64, of: impl Fn(&[Sample], usize) -> Columns) -> Probe {
     let mut rows = samples(remainder, MOST_SAMPLES);
     rows.sort_by_key(|s| group(remainder, s));

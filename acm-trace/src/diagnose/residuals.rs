@@ -79,7 +79,7 @@ impl LeftOut {
     }
 }
 
-/// Returns the change of the weighted outputs by effect `i`, N×M of each trial; none where its model cannot be solved for.
+/// Returns the change of the weighted outputs by effect `i`, N×M of each trial; none where the regression is singular.
 pub fn changes(problem: &Problem, state: &State, i: usize) -> Option<Vec<DMatrix<f64>>> {
     let whole = Assembled::new(problem, state)?;
     let mut rest = whole.clone();

@@ -1,7 +1,7 @@
 //! Surrogates of a residual: the residual of another trial, shifted in time, with a random sign.
 //!
-//! Where a trial ends, it runs back: a jump from its end to its beginning would make it harder to predict than what was measured.
-//! A surrogate keeps its correlation in time and between outputs, and loses its tie to the inputs. Theiler et al. (1992),
+//! A shifted trial is mirrored at its ends: a jump from its end to its beginning would make it harder to predict than the measured
+//! residual. A surrogate keeps the correlation in time and between outputs, and loses the dependence on the inputs. Theiler et al. (1992),
 //! Physica D 58.
 
 use nalgebra::DMatrix;
@@ -13,7 +13,7 @@ use crate::diagnose::random::permutation;
 use crate::diagnose::remainder::Remainder;
 use crate::diagnose::samples::{Sample, residuals};
 
-/// Columns at most, and the smallest and largest number of residuals in them.
+/// Most columns, and the smallest and largest number of residuals in them.
 const MOST_COLUMNS: usize = 300;
 const FEWEST_DRAWS: usize = 40;
 const MOST_DRAWS: usize = 100;
@@ -26,7 +26,7 @@ pub(crate) fn shifted(remainder: &Remainder, rows: &[Sample], seed: u64) -> DMat
     for (row, sample) in rows.iter().enumerate() {
         of_trial[sample.trial].push(row);
     }
-    // Rows come group by group; within a trial they follow time.
+    // Rows come group by group; within a trial they are sorted by time.
     of_trial.iter_mut().for_each(|trial| trial.sort_by_key(|&row| rows[row].t));
     of_trial.retain(|trial| !trial.is_empty());
     let draws = (MOST_COLUMNS / outputs.max(1) / 20 * 20).clamp(FEWEST_DRAWS, MOST_DRAWS);
@@ -49,14 +49,14 @@ pub(crate) fn shifted(remainder: &Remainder, rows: &[Sample], seed: u64) -> DMat
     y
 }
 
-/// Returns an offset that is a tenth off at least, on the way there and back, and a sign.
+/// Returns a random offset, at least a tenth of the trial away from zero, and a sign.
 fn turn(random: &mut ChaCha8Rng, length: usize) -> (usize, f64) {
     let least = length / 10;
     let offset = random.random_range(least..=2 * length - least);
     (offset, if random.random_range(0.0..1.0) < 0.5 { -1.0 } else { 1.0 })
 }
 
-/// Returns the index in a trial that is run through forward, then backward, and so on.
+/// Returns the index in a trial traversed forward, then backward, and so on.
 fn mirrored(k: usize, length: usize) -> usize {
     let k = k % (2 * length);
     if k < length { k } else { 2 * length - 1 - k }

@@ -31,7 +31,7 @@ use crate::diagnose::samples::{Sample, residuals, samples};
 use crate::finding::Symbolic;
 use orthogonal::{RANK, basis, direction, without};
 
-/// Samples at most.
+/// Largest number of samples.
 const MOST_SAMPLES: usize = 4000;
 
 /// Largest number of terms.
@@ -80,7 +80,7 @@ struct Search {
     residual: Vec<f64>,
     /// Orthonormal directions that calibration absorbs.
     absorbed: Vec<Vec<f64>>,
-    /// Squared norm of each term at each place, and what of it lies beside the directions that calibration absorbs.
+    /// Squared norm of each term at each place: in all, and orthogonal to what calibration absorbs.
     squares: [DMatrix<f64>; 2],
     /// Samples of each block.
     blocks: Vec<Vec<usize>>,
@@ -149,9 +149,9 @@ impl Search {
             .min_by(|(a, left), (b, right)| simplicity(a).cmp(&simplicity(b)).then(left.total_cmp(right)))
     }
 
-    /// Returns the pairs (term, place) that reduce the sum of squares most, beside the chosen ones.
+    /// Returns the pairs (term, place) that reduce the sum of squares most, given the chosen ones.
     fn short_list(&self, chosen: &[Column]) -> Vec<(usize, usize)> {
-        // Residual and columns are beside what calibration absorbs.
+        // Residual and columns are orthogonal to what calibration absorbs.
         let mut directions: Vec<Vec<f64>> = vec![];
         for column in chosen {
             directions.extend(direction(column.values.clone(), &directions));

@@ -4,8 +4,8 @@
 //! Δ ± √(h² + c²)          h: half of the interval of the fit, c: of the offset between the clocks, both of 95 %
 //! ```
 //!
-//! Offset and dead time act alike: Δ is what the offset has left of the dead time. The two errors are independent, since one is
-//! from the recordings' rates and the other from what the model leaves; so they add in squares.
+//! A clock offset acts like a dead time: Δ is what remains of the dead time after the offset. The two errors are independent, since one
+//! comes from the rates of the recordings and the other from the residual; so they add in squares.
 
 use crate::finding::{FoundEffect, FoundParameter};
 
@@ -26,8 +26,7 @@ pub fn widened(
     (effects.into_iter().map(of).collect(), clock.map(|clock| wide(clock, half)))
 }
 
-/// Widens the interval of a delay, whose lower bound stays at 0 or above. An offset does not change how it depends on a
-/// signal.
+/// Widens the interval of a delay, whose lower bound stays at 0 or above. An offset does not change the dependence on a signal.
 fn delay(parameter: FoundParameter, half: f64) -> FoundParameter {
     if parameter.depends_on.is_some() {
         return parameter;

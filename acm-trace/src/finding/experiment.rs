@@ -110,13 +110,13 @@ const FAMILIES: &[Family] = &[
     },
 ];
 
-/// Returns the experiment that would separate these effects; none for fewer than two. Carriers after a name, as in
-/// `coulomb_friction(x)`, may be there.
+/// Returns the experiment that would separate these effects; none for fewer than two. Names may have carriers, as in
+/// `coulomb_friction(x)`.
 pub fn to_separate(names: &[String]) -> Option<String> {
     if names.len() < 2 {
         return None;
     }
-    // An effect of one's own has no family, so that nothing is known that tells it from those of one.
+    // A user-defined effect has no family, so no experiment is known that separates it from others.
     let known = |name: &String| !families(std::slice::from_ref(name)).is_empty();
     let all_known = names.iter().all(known);
     Some(match families(names)[..] {

@@ -1,4 +1,4 @@
-//! Effects as they are reported: with values, intervals, confidence, and what explains as much.
+//! Effects as they are reported: with values, intervals, confidence, and equivalent effects.
 
 use acm_core::effects::ParameterSpec;
 use acm_core::effects::instance::Instance;
@@ -16,17 +16,17 @@ use crate::search::confidence::Chosen;
 use crate::search::criteria::Criteria;
 use crate::trace::{Options, Traced};
 
-/// What the last model has beside the nominal form.
+/// Effects and clock correction of the last model.
 pub struct Found {
     /// Effects that are named, the largest first.
     pub effects: Vec<FoundEffect>,
-    /// Effects that are not, the largest first.
+    /// Minor effects, the largest first.
     pub minor: Vec<MinorEffect>,
     /// Correction of the clock.
     pub clock_correction: Option<FoundParameter>,
 }
 
-/// Returns the effects of the last model, and the correction of the clock; `left` is what the model leaves on blocks left out.
+/// Returns the effects of the last model, and the correction of the clock; `left` has the residuals on blocks left out.
 pub fn found(prepared: &Prepared, traced: &Traced, left: Option<&LeftOut>, options: &Options) -> Found {
     let bounds = bounds(traced);
     let remainder = left.map(|left| left.remainder(&traced.problem, traced.noise));
@@ -60,15 +60,15 @@ fn minor_effect(traced: &Traced, bounds: Option<&Intervals>, (i, size): (usize, 
     }
 }
 
-/// Probability that what is left of noise follows an effect.
+/// Significance level of the test of an effect's form.
 const BY_CHANCE: f64 = 0.05;
 
-/// Returns the largest part of what one of several effects removes that may follow it: what the others miss follows it, too.
+/// Returns the share of what an effect removes that may still follow it: errors of the other effects add to it.
 fn may_follow(effects: usize, criteria: &Criteria) -> f64 {
     criteria.followed * (effects + 1) as f64
 }
 
-/// Returns a sure effect as likely where more than a little of what is left follows it.
+/// Downgrades a sure effect to likely where it predicts too much of the residual.
 fn of_its_form(
     effect: FoundEffect,
     most: f64,
@@ -86,12 +86,12 @@ fn of_its_form(
     FoundEffect { follows: Some(probe.rms), ..doubted(effect, Doubt::Followed) }
 }
 
-/// Returns whether more follows an effect than chance explains, and than may.
+/// Returns whether the explained part is significant, and larger than `most`.
 fn is_followed(probe: &Probe, most: f64) -> bool {
     probe.p <= BY_CHANCE && probe.rms > most
 }
 
-/// Returns the effects with the confidence that the whole allows: none is sure where the verdict is unknown structure, or the model predicts
+/// Returns the effects with downgraded confidence: none is sure where the verdict is unknown structure, or the saved model predicts
 /// otherwise than the search did.
 pub fn downgraded(effects: Vec<FoundEffect>, verdict: Verdict, agrees: bool) -> Vec<FoundEffect> {
     let unknown = (verdict == Verdict::UnknownStructure).then_some(Doubt::UnknownStructure);
@@ -175,7 +175,7 @@ fn may_be_silent(instance: &Instance, parameters: &[FoundParameter]) -> bool {
     sizes.peek().is_some() && !sizes.any(FoundParameter::differs_from_zero)
 }
 
-/// Returns whether others take back most of what one of several effects does.
+/// Returns whether other effects cancel most of what an effect does.
 fn is_taken_back((size, effects): (f64, usize), error: f64, criteria: &Criteria) -> bool {
     effects > 1 && size > criteria.taken_back * error
 }
@@ -229,7 +229,7 @@ fn clock(traced: &Traced, bounds: Option<&Intervals>) -> Option<FoundParameter> 
     })
 }
 
-/// Ratio of an interval to a typical value beyond which the size of the value is undetermined: two orders of magnitude.
+/// Ratio of half an interval to a typical value beyond which the value is undetermined: two orders of magnitude.
 const OPEN: f64 = 100.0;
 
 /// Returns whether the interval has no end, holds all values that the effect admits, or is far wider than a typical

@@ -2,10 +2,10 @@
 //!
 //! | file | what |
 //! | --- | --- |
-//! | [`verdict`], `records::effects`, `records::steps` | what may be concluded, what was found, and on which way |
-//! | `records::errors` | what held-out trials say of it |
-//! | `records::left`, `records::formula` | what remains |
-//! | `records::data`, `records::before`, `records::networks`, `records::drawn` | which data, networks beside the effects, what figures show |
+//! | [`verdict`], `records::effects`, `records::steps` | the conclusion, the effects, and the steps of the search |
+//! | `records::errors` | errors on held-out trials |
+//! | `records::left`, `records::formula` | the remaining residual |
+//! | `records::data`, `records::before`, `records::networks`, `records::drawn` | data, history of actuators, networks, figures |
 //! | [`sentence`], [`title`], [`experiment`] | the same in words |
 //! | `found`, `clocks`, `figures`, [`intervals`] | how effects, figures and intervals are made |
 
@@ -55,13 +55,13 @@ pub struct Finding {
     /// Names of the actuators that the model holds between samples.
     #[serde(default)]
     pub zero_order_hold: Vec<String>,
-    /// Names of the actuators that the model takes along a quartic between samples.
+    /// Names of the actuators with quartic interpolation between samples.
     #[serde(default)]
     pub quartic_interpolation: Vec<String>,
-    /// What the actuators did before those development trials whose start tells it.
+    /// History of the actuators before trials whose start determines it.
     #[serde(default)]
     pub before: Vec<BeforeTrial>,
-    /// Root mean square of the offset that each trial has of its own, unrecorded; in the unit of the errors.
+    /// Root mean square of the random offsets of trials, in the unit of the errors.
     pub trial_offset: Option<f64>,
     /// Errors on held-out trials, in the unit of [`Errors::unit`].
     pub errors: Errors,

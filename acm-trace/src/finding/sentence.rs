@@ -5,7 +5,7 @@
 //! | claim | verdict, effects with their confidence, clock correction |
 //! | evidence | errors on held-out trials, confirmation |
 //!
-//! Of a refuted model the evidence stands first.
+//! For a refuted model the evidence comes first.
 
 use acm_core::display::{Quantity, percent};
 use acm_core::effects::instance::Instance;

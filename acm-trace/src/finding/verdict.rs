@@ -25,7 +25,7 @@ pub enum Verdict {
     /// A slip, a spectral line, the offset of one trial.
     #[serde(rename = "event")]
     Event,
-    /// The residual is no noise, and neither effects nor the probes of [`super::Left`] explain it.
+    /// The residual is not noise, and neither effects nor the probes of [`super::Left`] explain it.
     #[serde(rename = "unmeasured disturbance")]
     UnmeasuredDisturbance,
 }
@@ -35,7 +35,7 @@ pub enum Verdict {
 pub enum AtBound {
     /// No value.
     Nothing,
-    /// A value of an effect that is not the largest: where little is left, what is named beside it stands.
+    /// A value of an effect that is not the largest: with a small residual the other effects stay named.
     Smaller,
     /// A value of the largest effect.
     Largest,
@@ -57,11 +57,11 @@ impl AtBound {
 pub struct Evidence<'e> {
     /// Number of effects that were accepted.
     pub effects: usize,
-    /// Which effect imitates something else.
+    /// Which effect rests on a bound.
     pub at_bound: AtBound,
     /// Mean square left out, without effects.
     pub before: f64,
-    /// Mean square left out, with the effects.
+    /// Mean square left out, with the named effects.
     pub after: f64,
     /// Mean square of the white noise.
     pub noise: f64,
@@ -71,7 +71,7 @@ pub struct Evidence<'e> {
     pub events: &'e [Event],
 }
 
-/// Probability that any of the probes finds something in noise; each has its part of it. Bonferroni.
+/// Family-wise error rate of the probes, shared equally. Bonferroni.
 const BY_CHANCE: f64 = 0.05;
 
 /// Multiple of the noise that still counts as noise.

@@ -31,7 +31,7 @@ pub fn time() -> Vec<f64> {
     (0..2000).map(|k| 0.01 * f64::from(k)).collect()
 }
 
-/// Returns the next of the numbers that are spread evenly over a width about zero, the same at each start.
+/// Returns a reproducible source of numbers spread evenly over a width about zero.
 pub fn noise(width: f64) -> impl FnMut() -> f64 {
     let mut state = 1u64;
     move || {
@@ -40,7 +40,7 @@ pub fn noise(width: f64) -> impl FnMut() -> f64 {
     }
 }
 
-/// Returns a trial of which every sample is looked at and counts; `measured` is row by row.
+/// Returns a trial in which every sample is compared and counts; `measured` is row by row.
 pub fn series(record: Record, measured: Vec<f64>) -> Series {
     let samples = record.samples();
     Series {

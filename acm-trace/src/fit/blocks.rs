@@ -5,7 +5,7 @@
 
 use std::ops::Range;
 
-/// Trials from which on whole trials are left out.
+/// Fewest trials that are left out whole.
 const TRIALS: usize = 3;
 
 /// Smallest number of blocks that trials are cut into, in all.
@@ -78,7 +78,7 @@ impl Blocks {
         Self { fold: (0..self.len()).collect(), folds: self.len(), ..self.clone() }
     }
 
-    /// Returns the blocks where every row becomes `width` rows: outputs below one another.
+    /// Returns the blocks where every row becomes `width` rows: outputs are stacked.
     #[must_use]
     pub fn stacked(&self, width: usize) -> Self {
         let rows = self.rows.iter().map(|rows| rows.start * width..rows.end * width).collect();

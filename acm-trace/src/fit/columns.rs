@@ -7,10 +7,10 @@ use quick_cache::sync::Cache;
 
 use super::state::Placed;
 
-/// Limit of cached numbers of each kind. What is longer is not cached.
+/// Most cached numbers of each kind. Longer columns are not cached.
 const MOST: u64 = 10_000_000;
 
-/// Columns of a kind that there is room for from the start: so few that they are kept in one piece, which has room for long ones.
+/// Expected number of columns of a kind: so few that the cache is in one piece, which has room for long ones.
 const EXPECTED: usize = 32;
 
 /// Number of kinds.
@@ -21,17 +21,17 @@ const KINDS: usize = Kind::Filtered as usize + 1;
 pub enum Kind {
     /// A column of an additive effect.
     Additive,
-    /// The same at every sample of the record.
+    /// Such a column at every sample of the record.
     AdditiveCourse,
-    /// Inputs as a chain of effects leaves them.
+    /// Inputs after a chain of effects.
     Inputs,
-    /// Columns that are the same at every sample of the record.
+    /// Such inputs at every sample of the record.
     Courses,
     /// Displacement of the outputs by loads on the arm.
     Loads,
     /// The base, then the columns of the correction.
     Nominal,
-    /// The same at every sample of the record.
+    /// Both at every sample of the record.
     Unfiltered,
     /// The base and the columns of the correction, or a column of an additive effect, behind filters.
     Filtered,
@@ -104,8 +104,8 @@ impl Default for Columns {
 }
 
 impl Columns {
-    /// Returns the column of a key, computed where it is not known. Threads that ask at once compute it each: none waits for another,
-    /// which may be busy with what this one does.
+    /// Returns the column of a key, computed where it is not cached. Concurrent threads each compute it: none waits for another, which may
+    /// itself wait for this one.
     pub fn get(&self, key: Key, compute: impl FnOnce() -> Vec<f64>) -> Arc<Vec<f64>> {
         if let Some(known) = self.known(&key) {
             return known;
@@ -113,7 +113,7 @@ impl Columns {
         self.put(key, Arc::new(compute()))
     }
 
-    /// Returns the column of a key where it is known.
+    /// Returns the column of a key if it is cached.
     pub fn known(&self, key: &Key) -> Option<Arc<Vec<f64>>> {
         self.0[key.kind as usize].get(key)
     }

@@ -5,9 +5,9 @@
 //! ```
 //!
 //! | symbol | meaning                                                                      | shape |
-//! | `b`    | base at the inputs as the effects left them, with its loads, frame and output | N × M |
-//! | `X`    | columns that every output has a coefficient of: the correction's monomials, kinks and sums of angles, linear parameters | N × p |
-//! | `Z`    | columns that all outputs share one coefficient of                            | c of N × M |
+//! | `b`    | base at the inputs after effects, with loads, frame and output               | N × M |
+//! | `X`    | columns with one coefficient per output: the correction's monomials, kinks and sums of angles, linear parameters | N × p |
+//! | `Z`    | columns with one coefficient for all outputs                                 | c of N × M |
 //! | `w`    | weight of an output                                                          | M     |
 
 use nalgebra::DMatrix;
@@ -66,8 +66,7 @@ pub fn design(problem: &Problem, state: &State) -> Design {
     Design { x, coupled: vec![], y, shrunk, correction }
 }
 
-/// Caches what states that begin as this one share with it: the actuators after the first input effects, and the
-/// columns of the nominal form.
+/// Caches what states that begin with this one share: the actuators after the first input effects, and the columns of the nominal form.
 pub fn keep(problem: &Problem, state: &State) {
     keep_inputs(problem, state);
     let basis = Basis::of(problem, state);

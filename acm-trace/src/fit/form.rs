@@ -12,7 +12,7 @@
 //! | `n`    | sums of angles ([`angles`]); most forms have none                               |
 //! | `m`    | correction; beside a base z stays within the recorded range, so that nothing is extrapolated   |
 //!
-//! Without a base the straight part goes on, and z of the powers from 2 on stays within [`BEYOND`] half ranges of the middle.
+//! Without a base the linear part is extrapolated, and z in higher powers stays within [`BEYOND`] half ranges of the middle.
 
 pub mod angles;
 mod powers;
@@ -21,14 +21,14 @@ use acm_core::actuation::{Monomials, monomial_count_within, monomials_within};
 use angles::Sums;
 pub use powers::Powers;
 
-/// Half ranges from the middle up to which a polynomial is extrapolated. Beyond it goes on straight: an input that an effect throws far
-/// out would be raised to the eighth power.
+/// Half ranges from the middle up to which a polynomial is extrapolated. Beyond, only its linear part grows: an input far outside would be
+/// raised to the eighth power.
 pub const BEYOND: f64 = 1.25;
 
 /// Largest number of columns up to degree 3 and with kinks, and from degree 4 on.
 const COLUMNS: (usize, usize) = (90, 34);
 
-/// Returns the largest number of kinks of each of so many actuators.
+/// Returns the largest number of kinks per actuator.
 pub fn most_kinks(actuators: usize) -> usize {
     ((COLUMNS.0 - 1) / actuators.max(1)).saturating_sub(1)
 }

@@ -1,4 +1,4 @@
-//! Products of a design, block by block, so that a refit without a fold is a sum and one solution.
+//! Products of a design, block by block: a refit without a fold is one sum and one solution.
 //!
 //! ```text
 //! A = Σ_{b∉f} XᵀX + λ n_f D,   B_m = Σ XᵀZ_m,   S = Σ_m (Σ Z_mᵀZ_m − B_mᵀA⁻¹B_m)
@@ -36,7 +36,7 @@ struct Products {
     h: DMatrix<f64>,
     /// Squared norms ‖y‖² of each column.
     yy: DVector<f64>,
-    /// Products XᵀZ_m, those of each output beside those of the one before, p × M c.
+    /// Products XᵀZ_m, output by output, p × M c.
     b: DMatrix<f64>,
     /// Sums Σ_m Z_mᵀZ_m, c × c.
     zz: DMatrix<f64>,
@@ -78,7 +78,7 @@ impl Grams {
         let own = DVector::from_iterator(p, design.x.column_iter().map(|x| rms(x.norm_squared())));
         let shared = DVector::from_iterator(c, design.coupled.iter().map(|z| rms(z.norm_squared())));
         let width = design.y.ncols();
-        // The coupled columns of each output beside those of the one before.
+        // The coupled columns, output by output.
         let mut z = DMatrix::zeros(design.x.nrows(), width * c);
         for (j, coupled) in design.coupled.iter().enumerate() {
             for (m, of_output) in coupled.column_iter().enumerate() {
@@ -200,7 +200,7 @@ impl Products {
         }
     }
 
-    /// Returns the products of columns of X that are divided by these.
+    /// Returns the products for columns of X divided by `scale`.
     fn scaled(mut self, scale: &DVector<f64>) -> Self {
         self.g.column_iter_mut().zip(scale.iter()).for_each(|(mut column, scale)| column /= *scale);
         for x in [&mut self.g, &mut self.h, &mut self.b] {
@@ -222,7 +222,7 @@ impl Products {
         }
     }
 
-    /// Adds another, or takes it away.
+    /// Adds or subtracts another.
     fn add(&mut self, other: &Self, sign: f64) {
         let into = |own: &mut DMatrix<f64>, other: &DMatrix<f64>| {
             own.as_mut_slice().iter_mut().zip(other.as_slice()).for_each(|(own, other)| *own += sign * other);

@@ -9,10 +9,10 @@
 //! | `θ̄`     | mean of these                                                                                     |
 //! | `B`     | number of blocks                                                                                  |
 //!
-//! A parameter that rests on a bound biases the others: intervals reach from the estimate to that to which the first order leads
-//! without bounds. Where several sets of effects predict alike, the interval of a parameter spans those of all that have it. Residuals may be
-//! correlated within a block. A flexible map follows each block that it is fitted to, so that residuals of the fit are too small:
-//! the jackknife has none. Efron & Tibshirani (1993), An Introduction to the Bootstrap, ch. 11.
+//! A parameter that rests on a bound biases the others: intervals include the estimate and the first-order estimate without bounds. Where
+//! several sets of effects predict alike, the interval of a parameter spans those of all that have it. Residuals may be correlated within
+//! a block. A flexible map fits every block that it has seen, so that residuals of the fit are too small: the jackknife does not use them.
+//! Efron & Tibshirani (1993), An Introduction to the Bootstrap, ch. 11.
 
 use acm_core::rig::Rig;
 use nalgebra::DMatrix;
@@ -26,7 +26,7 @@ use super::projected::{Projected, project};
 use super::refine::{Coordinate, Place, places, put};
 use super::state::{Part, Placed, State};
 
-/// Standard errors of one state's parameters.
+/// 95 % intervals of one state's parameters.
 #[derive(Debug, Clone)]
 pub struct Intervals {
     /// Intervals of each effect, one pair of bounds for each parameter; none for a fixed parameter.
@@ -151,7 +151,7 @@ fn linear(problem: &Problem, state: &State, beta: &DMatrix<f64>, design: &Design
     found
 }
 
-/// Returns the state with its linear parameters as β has them.
+/// Returns the state with its linear parameters from β.
 pub fn with_linear(problem: &Problem, state: &State, beta: &DMatrix<f64>, design: &Design) -> State {
     let mut next = state.clone();
     for one in linear(problem, state, beta, design) {

@@ -5,7 +5,7 @@
 //! ```
 //!
 //! | symbol | meaning                                                                        | shape |
-//! | `b, X` | what the nominal form and the effects make of the inputs ([`design`])          | N × M, N × p |
+//! | `b, X` | base and columns of the nominal form and the effects ([`design`])              | N × M, N × p |
 //! | `β`    | coefficients of the correction, and the effects' linear parameters             | p × M |
 //! | `θ`    | nonlinear parameters of the effects                                            | few   |
 //! | `λ, D` | ridge, and which columns it shrinks                                            |       |

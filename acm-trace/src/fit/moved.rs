@@ -45,7 +45,7 @@ pub fn moved(problem: &Problem, state: &State, fitted: &Projected, i: usize) -> 
     &regression.y - &regression.x * beta - &fitted.residual
 }
 
-/// Difference that tangents are taken from, in typical sizes.
+/// Finite-difference step of tangents, in parameter scales.
 const TANGENT: f64 = 1e-3;
 
 /// Returns Z: the first-order change of the outputs by the signed parameters of effect `new`, around coefficients β (p

@@ -23,7 +23,7 @@ const TRIALS: usize = 4;
 /// Number of parts of a trial.
 const PARTS: usize = 4;
 
-/// Probability of offsets where there are none.
+/// Significance level of offsets.
 const LEVEL: f64 = 0.01;
 
 /// Offsets of trials.

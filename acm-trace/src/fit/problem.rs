@@ -14,7 +14,7 @@ use crate::series::Series;
 
 /// A prediction that is given.
 ///
-/// Effects on the inputs move it through a polynomial g that stands for it: s(q̃) ≈ g(q̃) + (s(q) − g(q)).
+/// Effects on the inputs change it through a polynomial g that approximates it: s(q̃) ≈ g(q̃) + (s(q) − g(q)).
 #[derive(Debug, Clone, Copy)]
 pub struct Base<'a> {
     /// Polynomial g.
@@ -36,7 +36,7 @@ pub struct Problem<'a> {
     pub base: Option<Base<'a>>,
     /// Displacement per unit of each load at the samples of each trial; empty without a strain model.
     pub fields: Vec<Vec<f64>>,
-    /// What the base is beyond the polynomial that stands for it, s − g, at the samples of each trial, sample by sample.
+    /// Difference s − g between the base and its polynomial at the samples of each trial, sample by sample.
     pub offset: Vec<Vec<f64>>,
     /// Samples of each trial that count, among those that are looked at.
     pub kept: Vec<Vec<usize>>,
@@ -89,7 +89,7 @@ impl<'a> Problem<'a> {
         Self { offset_share: share, ..self.clone() }
     }
 
-    /// Returns what a model leaves of trial `s` at the samples that count, weighted, kept × M.
+    /// Returns the residual of a model in trial `s` at the samples that count, weighted, kept × M.
     pub fn residual_of(&self, model: &AugmentedModel, s: usize) -> DMatrix<f64> {
         let (series, kept) = (&self.series[s], &self.kept[s]);
         let predicted = model.predict_between(&series.record, series.predicted.as_ref());
@@ -99,7 +99,7 @@ impl<'a> Problem<'a> {
         })
     }
 
-    /// Returns what the actuators do between samples.
+    /// Returns the inter-sample behaviour of actuators.
     pub fn inter_sample(&self) -> InterSample {
         self.series.first().map_or_else(InterSample::default, |series| series.inter_sample.clone())
     }
@@ -114,7 +114,7 @@ impl<'a> Problem<'a> {
         self.kept.iter().map(Vec::len).sum()
     }
 
-    /// Returns whether any of the trials only calibrates.
+    /// Returns whether there are calibration trials.
     pub fn has_calibration(&self) -> bool {
         self.series.iter().any(|series| series.calibrates)
     }

@@ -4,8 +4,8 @@
 //! min over u of ‖r(u)‖²
 //! ```
 //!
-//! The parameters are taken in coordinates u without unit ([`coordinates`]), and r is the projected residual ([`residual`]). Steps are those of [`acm_core::levenberg_marquardt`], which takes none that
-//! raises the sum of squares. Kaufman (1975), BIT 15.
+//! Coordinates u have no unit ([`coordinates`]), and r is the projected residual ([`residual`]). [`acm_core::levenberg_marquardt`] takes
+//! no step that raises the sum of squares. Kaufman (1975), BIT 15.
 
 use std::sync::Arc;
 
@@ -25,7 +25,7 @@ use residual::ProjectedResidual;
 pub use super::projected::{Projected, project};
 pub(crate) use coordinates::{Coordinate, Place, places, put};
 
-/// Steps of a resonance for each of another effect: its valley is narrow and bent.
+/// Factor on the steps with a resonance: its valley is narrow and curved.
 const RINGING: usize = 4;
 
 /// Initial radius of the trust region, in u.
@@ -93,8 +93,7 @@ mod tests {
         bench::rig(&["q"], &[], &["y"])
     }
 
-    /// Returns sin ωt, of which a straight line of a trial that only calibrates, and of one that does not, is seen
-    /// after 2 s.
+    /// Returns a calibration and a development trial of sin ωt, which count after 2 s.
     fn series() -> Vec<Series> {
         let q: Vec<f64> = bench::time().iter().map(|t| (OMEGA * t).sin()).collect();
         let late = bench::series(Record::new(bench::time(), vec![q.clone()], vec![], vec![]), q);
@@ -125,7 +124,7 @@ mod tests {
         }
     }
 
-    /// Oracle: the same regression computed without anything kept, bit for bit.
+    /// Oracle: the same regression computed without a cache, bit for bit.
     #[test]
     fn what_is_kept_changes_nothing() {
         let (rig, series) = (rig(), series());

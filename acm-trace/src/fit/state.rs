@@ -42,7 +42,7 @@ pub struct State {
     pub clock: f64,
     /// Effects in the order of action.
     pub effects: Vec<Arc<Placed>>,
-    /// Modes of which an unknown state at the start of a trial is forgiven, beside those of the effects.
+    /// Modes whose unknown initial state is projected out, beside those of the effects.
     pub forgiven: Vec<Mode>,
 }
 
@@ -68,8 +68,8 @@ impl Placed {
         Some(self.theta[at])
     }
 
-    /// Returns the nonlinear parameters that a fit may move. A size of an input effect that rests at its neutral value
-    /// is not part of the effect, as one actuator's play is not where another actuator has it.
+    /// Returns the nonlinear parameters that a fit may move. A size of an input effect at its neutral value is not fitted, such as the
+    /// play of one actuator where only another has play.
     pub fn free(&self) -> Vec<usize> {
         let specs = self.instance.parameters();
         let own = self.instance.own_parameters();
@@ -115,8 +115,8 @@ impl State {
         next
     }
 
-    /// Returns a copy with one more effect on the inputs, on the other side of those that it does not commute with:
-    /// filters and effects with a fading memory before the others, these after it. None where that is no other place.
+    /// Returns a copy with one more input effect, on the other side of those that it does not commute with: filters and effects with
+    /// fading memory come first, all others last. None where that is its usual place.
     #[must_use]
     pub fn with_turned(&self, new: Placed) -> Option<Self> {
         let commutes = |placed: &Placed| placed.instance.effect().traits().commutes;
@@ -202,7 +202,7 @@ impl State {
 /// Ratio of two memories, and of two frequencies, below which they count as one: over a trial their fading is alike.
 const ALIKE: f64 = 1.5;
 
-/// Returns the modes of finite memory of the effects and those that are forgiven beside them, the slowest first, each once.
+/// Returns the modes of finite memory of the effects and the further ones of the state, the slowest first, each once.
 pub fn modes(state: &State) -> Vec<Mode> {
     let own = state.effects.iter().flat_map(|placed| placed.instance.modes(&placed.theta));
     let mut all: Vec<Mode> = own.chain(state.forgiven.iter().copied()).filter(|mode| mode.memory.is_finite()).collect();

@@ -5,10 +5,10 @@
 //! ```
 //!
 //! | symbol | meaning                                                                       | unit |
-//! | `τ_i`, `ω_i` | modes of the effects, and those that are forgiven beside them               | s, rad/s |
+//! | `τ_i`, `ω_i` | modes of the effects, and further ones of the state                         | s, rad/s |
 //! | `δ`    | prior of the states, relative to their information                            | 1    |
 //!
-//! A state is forgotten only where it outlasts the warm-up. The mean is that of [`offsets`](super::offsets).
+//! A mode is projected out only where it outlasts the warm-up. The mean is that of [`offsets`](super::offsets).
 
 pub mod past;
 
@@ -21,7 +21,7 @@ use super::offsets::without_offset;
 use super::problem::Problem;
 use super::state::{State, modes};
 
-/// Duration of a memory, as a share of the warm-up, from which its state at the start matters.
+/// Duration of a memory, as a share of the warm-up, above which its initial state matters.
 const LASTS: f64 = 0.3;
 
 /// Prior weight δ.
@@ -37,7 +37,7 @@ pub struct Unrecorded {
 }
 
 impl Unrecorded {
-    /// Returns the model of trial `s`.
+    /// Returns the projection of trial `s`.
     pub fn new(problem: &Problem, state: &State, s: usize) -> Self {
         let (series, kept) = (&problem.series[s], &problem.kept[s]);
         let first = kept.first().map_or(0.0, |&k| series.thin.time[k]);
@@ -53,7 +53,7 @@ impl Unrecorded {
         &self.modes
     }
 
-    /// Returns what tells two projections of the same trial apart.
+    /// Returns a key that distinguishes projections of a trial.
     pub fn key(&self) -> Vec<f64> {
         self.modes.iter().flat_map(|mode| [mode.memory, mode.frequency]).collect()
     }
@@ -71,7 +71,7 @@ impl Unrecorded {
     }
 }
 
-/// Returns H: how each mode fades at these times.
+/// Returns H: the decay of each mode at these times.
 pub fn fading(since: &[f64], modes: &[Mode]) -> DMatrix<f64> {
     let phases = |mode: &Mode| if mode.frequency > 0.0 { vec![0.0, FRAC_PI_2] } else { vec![0.0] };
     let all: Vec<(Mode, f64)> =
@@ -82,7 +82,7 @@ pub fn fading(since: &[f64], modes: &[Mode]) -> DMatrix<f64> {
     })
 }
 
-/// Returns L⁻¹Hᵀ; none for no state, or one that has faded at once.
+/// Returns L⁻¹Hᵀ; none for no state, or one that decays at once.
 pub fn projection(h: &DMatrix<f64>) -> Option<DMatrix<f64>> {
     factor(h)?.l().solve_lower_triangular(&h.transpose())
 }
@@ -115,7 +115,7 @@ mod tests {
         assert!(unrecorded.taken_out(swing.clone()).norm() < 10.0 * PRIOR * swing.norm());
     }
 
-    /// Oracle: what decays as forgotten states do is gone but for the prior, and what is orthogonal to them stays.
+    /// Oracle: what decays as projected modes do is gone but for the prior, and what is orthogonal to them stays.
     #[test]
     fn states_at_the_start_are_taken_out() {
         let since: Vec<f64> = (0..50).map(|k| 0.1 * f64::from(k)).collect();

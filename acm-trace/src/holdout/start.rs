@@ -1,14 +1,14 @@
-//! Unknown state of a held-out trial at its start, told by its warm-up.
+//! Unknown initial state of a held-out trial, estimated from its warm-up.
 //!
 //! | form | what is estimated |
 //! | --- | --- |
-//! | fading | each mode of memory τ in each output, e^{−t/τ} or swinging: what any lag forgets, whatever it is |
+//! | fading | each mode of memory τ in each output, e^{−t/τ} or oscillating: the decay of any lag |
 //! | rest | a constant at which each actuator rested before the first sample |
-//! | turn | a value of each actuator at which it turned before the first sample, and what fades |
-//! | common | nothing beside what fades, where the development trials began alike |
+//! | turn | a value of each actuator at which it turned before the first sample, and fading modes |
+//! | common | fading modes only, after the history that development trials share |
 //!
-//! The form with the lowest n ln(S/n) + k ln n is taken, of n numbers of the warm-up that leave the sum of squares S behind k of the
-//! trial's own (Schwarz (1978), Annals of Statistics 6(2)). A baseline has no memory, and fades as the model with effects does.
+//! The form with the lowest n ln(S/n) + k ln n is used, with n numbers in the warm-up, the residual sum of squares S, and k values of the
+//! trial's own (Schwarz (1978), Annals of Statistics 6(2)). A baseline has no memory; the modes of the model with effects are used.
 
 use acm_core::augmented::AugmentedModel;
 use acm_core::effects::Mode;
@@ -21,11 +21,11 @@ use crate::fit::unrecorded::{fading, states};
 use crate::series::before::Before;
 use crate::series::warm_up;
 
-/// Duration of a memory, as a share of the warm-up, from which the state at the start matters.
+/// Duration of a memory, as a share of the warm-up, above which the initial state matters.
 const LASTS: f64 = 0.3;
 
-/// Returns measured − predicted without what an unknown state at the start explains, unless it has faded in what leads up to the trial;
-/// `modes` are those of the effects, and `weight` those of the outputs. `common` is what the actuators did before other trials.
+/// Returns measured − predicted without the part that an unknown initial state explains, unless it has decayed during the lead; `modes`
+/// are those of the effects, and `weight` those of the outputs. `common` is the history of other trials.
 pub fn residual(
     trial: &Trial,
     model: &AugmentedModel,
@@ -66,7 +66,7 @@ pub fn residual(
     all.min_by(|a, b| of(a).total_cmp(&of(b))).map_or_else(|| trial.measured.clone(), |best| best.0)
 }
 
-/// Returns the residual without what fades.
+/// Returns the residual without fading modes.
 fn faded(residual: &DMatrix<f64>, time: &[f64], lasting: &[Mode], told: usize) -> DMatrix<f64> {
     let since: Vec<f64> = time.iter().map(|t| t - time[0]).collect();
     let (h, mut residual) = (fading(&since, lasting), residual.clone());
@@ -97,8 +97,8 @@ mod tests {
     use crate::fit::bench;
     use acm_core::effects::Carrier;
 
-    /// Oracle: τ (1 + κz) dz/dt = x − z in small steps, from a rest at 0.8 while the input is at −0.6 throughout. Two fading memories,
-    /// told by a warm-up that is short beside them, leave more than the noise.
+    /// Oracle: τ (1 + κz) dz/dt = x − z in small steps, from a rest at 0.8 while the input is at −0.6 throughout. Two fading modes,
+    /// estimated from a warm-up that is shorter than they are, leave more than the noise.
     #[test]
     fn a_lag_that_depends_on_its_state_begins_behind_a_rest() {
         let rig = bench::rig(&["q"], &[], &["y"]);

@@ -22,8 +22,8 @@ use crate::fit::state::State;
 pub(super) enum Tested {
     /// It is no improvement, or stands for something else.
     Failed,
-    /// It gains in too few blocks, no more than the best of all candidates does by chance, or no more than a static map. What it leaves
-    /// may still hold another effect.
+    /// It gains in too few blocks, no more than the best of all candidates does by chance, or no more than a static map. The residual may
+    /// still contain another effect.
     Unproven {
         /// Relative reduction of the cross-validated mean square.
         gain: f64,
@@ -122,8 +122,7 @@ pub fn least_t(blocks: usize, level: f64) -> f64 {
     student.map_or(f64::INFINITY, |student| student.inverse_cdf(1.0 - level))
 }
 
-/// Returns the mean fall over blocks in its standard errors: of the sums of squares, or of their logarithms where
-/// blocks differ in size.
+/// Returns the mean fall over blocks in its standard errors: of the sums of squares or of their logarithms, whichever is larger.
 pub fn paired_t(before: &[f64], after: &[f64]) -> f64 {
     let pairs = || before.iter().zip(after);
     let absolute = t_of(pairs().map(|(before, after)| before - after).collect());
@@ -139,8 +138,7 @@ fn t_of(falls: Vec<f64>) -> f64 {
     mean / (variance / n).sqrt().max(f64::MIN_POSITIVE)
 }
 
-/// Returns whether a time of the new effect rests on the longest or the shortest that the trials determine. It stands for
-/// something else.
+/// Returns whether a time of the new effect rests on a bound that the trials set. Then it imitates something else.
 pub fn rests_on_bound(candidate: &Tried, rig: &Rig) -> bool {
     let Some(new) = new_in(&candidate.label, &candidate.state, rig) else { return false };
     let placed = &candidate.state.effects[new];
@@ -150,7 +148,7 @@ pub fn rests_on_bound(candidate: &Tried, rig: &Rig) -> bool {
     specs.any(|(spec, value)| spec.is_free() && spec.unit == "s" && spec.name != "window" && rests(spec, *value))
 }
 
-/// Ratio of a value to a bound from which on it rests there.
+/// Ratio of a value to a bound above which it rests there.
 const NEAR: f64 = 0.99;
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! Effects that may be added to a state, each with values to begin with.
+//! Effects that may be added to a state, each with initial values.
 
 mod candidate;
 mod replaced;
@@ -58,7 +58,7 @@ pub fn candidates(problem: &Problem, state: &State, library: &[Instance], clock:
         for context in modulators(problem, new).into_iter().filter(|_| varied) {
             let without = old.map_or_else(|| state.clone(), |i| state.without(i));
             let mut dependent = new.with_context(context, problem.rig);
-            // A bend that is alike on both sides of the middle has no slope.
+            // A dependence that is symmetric about the middle has no slope.
             if context == new.carrier() {
                 dependent = dependent.and_then(|line| line.with_bow(problem.rig));
             }
@@ -78,7 +78,7 @@ pub fn candidates(problem: &Problem, state: &State, library: &[Instance], clock:
     all
 }
 
-/// Returns the initial guesses; a filter takes every column at the full rate, so that it begins from fewer.
+/// Returns the initial guesses; fewer for a filter, which takes every column at the full rate.
 fn guesses(problem: &Problem, new: &Instance) -> Vec<Vec<f64>> {
     let all = new.initial_guesses(problem.rig);
     let most = if part(new) == Part::Filter { FILTERED } else { usize::MAX };
@@ -89,9 +89,8 @@ fn guesses(problem: &Problem, new: &Instance) -> Vec<Vec<f64>> {
 /// Largest number of initial guesses of a filter.
 const FILTERED: usize = 16;
 
-/// Returns whether an effect is tried. An effect that a correction absorbs, or that needs an arm where there is none,
-/// is not. A filter of the outputs that no signal carries is the same on the inputs of a straight line, and a delay of the
-/// outputs the same on the inputs of any static map.
+/// Returns whether an effect is tried. An effect that a correction absorbs, or that needs an arm where there is none, is not. An output
+/// filter that no signal carries equals one of the inputs of a linear map, and an output delay one of the inputs of any static map.
 fn is_possible(problem: &Problem, state: &State, new: &Instance) -> bool {
     let on_an_arm = problem.base.is_some_and(|base| base.strain.is_some());
     let traits = new.effect().traits();
@@ -150,7 +149,7 @@ fn varied_guesses(problem: &Problem, plain: &Instance, varied: &Instance, contex
     (thinned.flat_map(tilted).collect(), SLOPES.len())
 }
 
-/// Returns the actuators that are read ahead, from one sample to a third of the longest trial.
+/// Returns states with a clock correction, from one sample to a third of the longest trial.
 fn clock_candidate(problem: &Problem, state: &State) -> Candidate {
     let times = acm_core::effects::times::grid(problem.rig);
     let base = sloped(problem, state);
@@ -185,7 +184,7 @@ mod tests {
     use crate::fit::form::Form;
 
     /// Oracle: by hand; a lag of 0.5 s of three actuators becomes three, all of 0.5 s, or one of them of half or twice that. Where one
-    /// actuator has a lag of its own already, nothing comes apart.
+    /// actuator has a lag of its own already, nothing is split.
     #[test]
     fn a_lag_of_all_actuators_comes_apart() {
         let rig = bench::rig(&["a", "b", "c"], &[], &["y"]);

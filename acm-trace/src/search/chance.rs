@@ -6,11 +6,11 @@
 //!
 //! | symbol | meaning                                                                                            |
 //! | `e*`   | residual of the larger model with its phases drawn at random (`surrogate`)                           |
-//! | `D_c`  | what a candidate adds: columns of its own, and the change of the prediction at a value to begin with |
+//! | `D_c`  | what a candidate adds: columns of its own, and the change of the prediction at initial values      |
 //! | `P_X`  | projection on the columns of the smaller model                                                     |
 //!
-//! Values to begin with are chosen without the fold, as in the search. A change of the prediction has a coefficient that is free
-//! here, and 1 in the model: chance is rather over- than underestimated.
+//! Initial values are chosen without the fold, as in the search. A change of the prediction has a free coefficient here, and 1 in the
+//! model: chance is over- rather than underestimated.
 
 mod surrogate;
 
@@ -29,7 +29,7 @@ use crate::fit::projected::{Projected, project};
 use crate::fit::state::State;
 use crate::tall::product;
 
-/// Smallest part of a column that has to remain once others are taken out of it.
+/// Smallest part of a column that must remain once others are projected out.
 const RANK: f64 = 1e-6;
 
 /// Number and level of surrogates.
@@ -74,7 +74,7 @@ fn explained(
 ) -> Vec<f64> {
     let count = drawn.ncols() / problem.outputs().max(1);
     let blocks = &problem.blocks;
-    // Of the best value to begin with so far: what it takes away from the rows kept, and from the fold.
+    // Reduction by the best initial values so far: on the rows kept, and on the fold.
     let mut best = vec![vec![(0.0, 0.0); count]; blocks.folds];
     for k in candidate.coarse() {
         let directions = Directions::new(problem, small, projection, candidate, &candidate.states[k]);

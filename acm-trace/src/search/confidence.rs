@@ -19,7 +19,7 @@ use crate::fit::state::State;
 /// Effects that would have been chosen instead of one.
 #[derive(Debug, Clone, Default)]
 pub struct Chosen {
-    /// Rise of the sum of squares of blocks left out where the effect is taken out and the others are refined.
+    /// Rise of the cross-validated sum of squares when the effect is removed and the others are refined.
     pub rise: f64,
     /// Label and share of the resamples, largest first; an empty label stands for no effect.
     pub shares: Vec<(String, f64)>,
@@ -59,8 +59,8 @@ struct Place {
     better: Option<Tried>,
 }
 
-/// Removes each effect of a settled set, and lets every candidate compete for its place, no effect among them. The losses are those
-/// of the set with its values refined on all samples.
+/// Removes each effect of a settled set, and lets all candidates, and no effect, compete for its place. The losses are those of the set
+/// with its values refined on all samples.
 fn places(search: &mut Search, selected: &Selected) -> Vec<Place> {
     let (settled, last_losses) = (&selected.settled.0, &selected.last_losses);
     search
@@ -68,7 +68,7 @@ fn places(search: &mut Search, selected: &Selected) -> Vec<Place> {
         .into_iter()
         .map(|(label, without)| {
             let rest = search.settled(&without);
-            // Beside the others as they are: without the effect they would take over what they can of it.
+            // The other effects keep their values: refined without it, they would absorb part of it.
             let tried = search.expand(&without);
             let tried = with_close_refined(search, tried, &label);
             let others = possible(&tried, search.problem.rig).filter(|one| !refines(one, &label));
@@ -128,8 +128,8 @@ fn exchanged(search: &mut Search, selected: &Selected, places: &[Place]) -> Opti
 /// refinement lowered J by more than this for a quarter of the candidates, and by 0.44 for hysteresis of several plays.
 const REFINED: f64 = 0.5;
 
-/// Returns an expansion with those candidates refined, too, that refinement may lift to the effect of a label: all that are
-/// about as good to first order, and depend on no other signal.
+/// Returns an expansion with further candidates refined, which may then compete with the effect of a label: those that are about as good
+/// to first order, and depend on no other signal.
 fn with_close_refined(search: &Search, mut tried: Vec<Tried>, label: &str) -> Vec<Tried> {
     let own = tried.iter().find(|one| one.label == label).map_or(f64::NEG_INFINITY, |one| one.scanned);
     let is_plain = |one: &Tried| !one.label.contains(" × ");
@@ -138,14 +138,12 @@ fn with_close_refined(search: &Search, mut tried: Vec<Tried>, label: &str) -> Ve
     tried
 }
 
-/// Returns whether a candidate is the effect of a label with more parameters: where these do nothing it is no other
-/// effect.
+/// Returns whether a candidate is the effect of a label with more parameters: where these do nothing it is the same effect.
 fn refines(one: &Tried, label: &str) -> bool {
     find(effect_of(&one.label)).and_then(|effect| effect.traits().refines) == Some(effect_of(label))
 }
 
-/// Returns the candidates for the place of an effect. Those that predict as well to the level of the test are refined
-/// as the effect was.
+/// Returns the candidates for the place of an effect. Those that are not significantly worse are refined as the effect was.
 fn polished<'t>(
     search: &Search,
     tried: impl Iterator<Item = &'t Tried>,
@@ -188,7 +186,7 @@ pub struct Kept {
     pub with_minor: (State, Losses),
 }
 
-/// Returns the set with effects that most resamples choose in the place of its own, and without those that most do not choose.
+/// Returns the set after exchanging effects for those that most resamples choose, and dropping those that most do not.
 pub fn kept(search: &mut Search, selected: Selected, progress: impl FnMut(&Step)) -> Kept {
     let told = search.steps.len();
     let mut selected = beside_map(search, selected);
@@ -226,8 +224,7 @@ fn larger(search: &mut Search, settled: &State, losses: &Losses) -> Vec<State> {
     better.map(|one| one.state.clone()).collect()
 }
 
-/// Returns the number of columns that an effect of a state has: an effect with more of them than another is no equal of it, since some of
-/// them make it one.
+/// Returns the number of columns of an effect: one with more columns is not equivalent to one with fewer.
 fn terms(state: &State, label: &str, problem: &Problem) -> usize {
     new_in(label, state, problem.rig).map_or(1, |i| state.effects[i].linear().len() / problem.outputs().max(1)).max(1)
 }
@@ -248,7 +245,7 @@ mod tests {
     use crate::search::scan::cross_validate;
     use crate::series::Series;
 
-    /// Returns a trial with y = q(t − 0.1 s), through a lag of 40 ms where that is asked for.
+    /// Returns a trial with y = q(t − 0.1 s), through a lag of 40 ms if `is_lagged`.
     fn delayed(is_lagged: bool) -> [Series; 1] {
         let q = |t: f64| (1.7 * t).sin() + 0.5 * (4.3 * t).cos();
         let response = |w: f64, t: f64| {
@@ -314,7 +311,7 @@ mod tests {
         assert_eq!(told, ["actuator_lag → dead_time"]);
     }
 
-    /// Oracle: y = q + 0.3 e^(−t/3 s) beside noise. Creep of no size predicts better by its start alone, and loses its place to none.
+    /// Oracle: y = q + 0.3 e^(−t/3 s) beside noise. Creep of size zero predicts better by its start alone; no effect replaces it.
     #[test]
     fn an_unknown_start_wins_no_place() {
         let rig = bench::rig(&["q"], &[], &["y"]);

@@ -1,4 +1,4 @@
-//! Every constant of the search.
+//! Criteria of the search.
 
 /// Criteria for accepting an effect.
 #[derive(Debug, Clone, PartialEq)]
@@ -17,13 +17,13 @@ pub struct Criteria {
     pub parameter: f64,
     /// Price of a minor effect, which is in the model and not named, in prices.
     pub minor: f64,
-    /// Constant ε: an error below a hundredth of the first one hardly counts.
+    /// Constant ε: an error below a hundredth of the first one is negligible.
     pub negligible: f64,
     /// Probability of so large a mean gain over blocks where there is none.
     pub level: f64,
     /// The same for a gain that is far above chance.
     pub few: f64,
-    /// Number of largest gains by chance, one after another, that a gain far above chance exceeds.
+    /// Number of largest chance gains, one after another, that a gain far above chance exceeds.
     pub clear: f64,
     /// Probability that any candidate is accepted where none acts.
     pub family_wise: f64,
@@ -47,7 +47,7 @@ pub struct Criteria {
     pub likely: f64,
     /// Largest multiple of the error without effects by which one of several may move the outputs and be sure.
     pub taken_back: f64,
-    /// Largest part of what an effect removes that may follow it in what is left, and it be sure; root mean squares, for each effect of
+    /// Largest ratio of what a sure effect may still predict in the residual to what it removes (root mean squares), for each effect of
     /// the model and once more.
     pub followed: f64,
 }

@@ -87,7 +87,7 @@ impl Search<'_, '_> {
         let mut tried: Vec<Tried> =
             all.iter().zip(scanned).filter_map(|(candidate, scanned)| Some(self.tried(candidate, scanned?))).collect();
         tried.sort_by(|a, b| a.score.total_cmp(&b.score));
-        // A vibration beside what follows directly looks like any oscillator at first: it takes the place of none.
+        // A vibration looks like any oscillator in a scan: one is refined in addition to the others.
         let (vibrations, mut tried): (Vec<Tried>, Vec<Tried>) =
             tried.into_iter().partition(|one| adds_vibration(&one.label));
         let first = self.criteria.refined.min(tried.len());
@@ -110,7 +110,7 @@ impl Search<'_, '_> {
 
     fn tried(&self, candidate: &Candidate, scanned: Scanned) -> Tried {
         let state = candidate.states[scanned.best].clone();
-        // As many samples as a refined candidate is scored on.
+        // Scaled to the samples of refined candidates.
         let share = self.problem.rows() as f64 / self.quick.rows().max(1) as f64;
         let losses: Losses = scanned.losses.iter().map(|loss| share * loss).collect();
         let score = self.score(&losses, &state);
@@ -138,7 +138,7 @@ impl Search<'_, '_> {
     /// Returns the refined state, with the new effect in the calibration trials too where that predicts better.
     fn scoped(&self, one: &Tried) -> State {
         let new = new_in(&one.label, &one.state, self.problem.rig);
-        // A resonance that was there before has found its valley.
+        // A resonance of the old state has already converged.
         let of_new = |new: usize| steps(&one.state.effects[new..=new], ITERATIONS.0);
         let iterations = new.map_or(ITERATIONS.0, of_new);
         let refined = refine(self.quick, &one.state, iterations);
@@ -148,8 +148,7 @@ impl Search<'_, '_> {
         if loss(&rescoped) < loss(&refined) { rescoped } else { refined }
     }
 
-    /// Returns the refined candidate, then with its form chosen again, where each predicts better; the errors are those
-    /// of the true model.
+    /// Returns the refined candidate, then with its form chosen again, where each predicts better; errors are those of the full model.
     pub(super) fn refined(&self, one: &Tried) -> Tried {
         let refined = self.scoped(one);
         let (chosen, chosen_losses) = nuisance::choose(self.problem, &refined, self.criteria);

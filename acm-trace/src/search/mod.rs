@@ -7,20 +7,20 @@
 //!
 //! | file | what |
 //! | --- | --- |
-//! | [`criteria`] | every constant, with what it rests on |
-//! | [`candidates`] | effects that may be added, with values to begin with |
+//! | [`criteria`] | criteria for accepting an effect |
+//! | [`candidates`] | effects that may be added, with initial values |
 //! | [`scan`] | their cross-validated errors |
 //! | [`expand`] | all candidates of a state, the best refined |
-//! | [`accept`] | when one of them counts |
-//! | `accept::imitation` | when one stands for something else |
-//! | `accept::start` | what an unknown start of each trial explains by itself |
-//! | [`chance`] | what the best of them gains by chance, on residuals with random phases |
+//! | [`accept`] | tests of a candidate |
+//! | `accept::imitation` | whether one imitates something else |
+//! | `accept::start` | part that an unknown initial state explains |
+//! | [`chance`] | largest gain by chance, on residuals with random phases |
 //! | [`nuisance`] | degree and ridge of the nominal form |
 //! | `nuisance::held` | actuators that are held at a few values |
-//! | `smoothed` | what smoother actuators explain |
-//! | `scored`, `tried`, `step` | a search on its way, what it tries, what it tells |
-//! | [`select`] | the search itself |
-//! | `select::pairs` | effects that are proven beside a second one alone |
+//! | `smoothed` | errors with smoother actuators |
+//! | `scored`, `tried`, `step` | state of a search, what it tries, its steps |
+//! | [`select`] | beam search |
+//! | `select::pairs` | effects that are proven only with a second one |
 //! | `settle` | drops, exchanges, splits and kinks at its end |
 //! | `settle::minor` | effects that predict better beside those that are named |
 //! | [`confidence`] | how often an effect is chosen again |

@@ -45,8 +45,8 @@ fn polynomial(degree: usize, powers: Powers) -> Form {
     Form { degree: Some(degree), powers, ..Form::LINEAR }
 }
 
-/// Returns the forms with terms of angles beside a straight line: of joints that follow one another, and of every number of joints that
-/// a sum may have; none beside a base, whose correction is small, or where angles rest at one or two values.
+/// Returns the forms with terms of angles beside a straight line: of consecutive joints, and of every number of joints that a sum may
+/// have; none beside a base, whose correction is small, or where angles rest at one or two values.
 fn turning(problem: &Problem, state: &State) -> impl Iterator<Item = Form> {
     let (rig, actuators) = (problem.rig, problem.rig.actuators.len());
     let most = if problem.base.is_none() && fewest(problem, state) > 1 { angles(rig) } else { 0 };
@@ -81,8 +81,8 @@ const PLACED: (usize, u32) = (12, 2);
 /// Rounds in which kinks move to places beside theirs.
 const MOVES: usize = 4;
 
-/// Returns the state with kinks beside a straight line, the best of all forms with kinks: what a polynomial is no match for, such as a
-/// sensor of the absolute value. Kinks are evenly spaced, or each is where it predicts best beside those before, which then move.
+/// Returns the state with the best form with kinks beside a straight line: for maps that polynomials fit poorly, such as a sensor of the
+/// absolute value. Kinks are evenly spaced, or placed one by one where each predicts best; those before then move.
 pub fn bent(problem: &Problem, state: &State, criteria: &Criteria) -> Option<(State, Losses)> {
     let actuators = problem.rig.actuators.len();
     let most = most_kinks(actuators).min(fewest(problem, state) - 1);
@@ -144,7 +144,7 @@ fn simplest(problem: &Problem, tried: Vec<(State, Losses)>, criteria: &Criteria)
     })
 }
 
-/// Returns the state with each ridge, and its losses: the products of a design are those of every ridge.
+/// Returns the state with each ridge, and its losses: all share the products of a design.
 fn of_ridges(problem: &Problem, state: &State) -> Vec<(State, Losses)> {
     let regression = design(problem, state);
     let grams = Grams::new(&regression, &problem.blocks);
@@ -156,8 +156,8 @@ fn of_ridges(problem: &Problem, state: &State) -> Vec<(State, Losses)> {
     RIDGES.into_iter().filter_map(of).collect()
 }
 
-/// Fewest angles that are a chain of joints: the nominal form of a chain may have terms of angles from the start. Of one joint the
-/// weight is an effect that has a name.
+/// Fewest angles that form a chain of joints, whose nominal form may have terms of angles from the start. The weight of a single joint is
+/// a named effect.
 const CHAIN: usize = 2;
 
 /// Returns the number of columns of a form.
@@ -252,8 +252,8 @@ mod tests {
         assert!(left(11.0)[1] > 0.5);
     }
 
-    /// Oracle: the height of three links in a plane is straight in the sines of q₁, q₁ + q₂ and q₁ + q₂ + q₃; a torque that turns with
-    /// q₁ − q₂ is not among sums of joints that follow one another.
+    /// Oracle: the height of three links in a plane is linear in the sines of q₁, q₁ + q₂ and q₁ + q₂ + q₃; a torque that turns with
+    /// q₁ − q₂ is not among sums of consecutive joints.
     #[test]
     fn links_in_a_plane_have_terms_of_joints_that_follow_one_another() {
         let rig = bench::rig(&["a", "b", "c"], &[], &["y"]);

@@ -1,4 +1,4 @@
-//! Cross-validated errors of candidates. Initial guesses are chosen without the fold, too.
+//! Cross-validated errors of candidates. Initial guesses are also chosen without the fold.
 
 use nalgebra::DMatrix;
 use rayon::prelude::*;
@@ -51,7 +51,7 @@ pub fn scan(problem: &Problem, small: &State, candidates: &[Candidate], beta: &D
     let is_coarse = |c: usize, k: usize| candidates[c].coarse().any(|coarse| coarse == k);
     let is_plain = |c: usize| candidates[c].each.is_none();
     run(work(&|c, k| is_plain(c) && is_coarse(c, k)), &mut tried);
-    // Sizes that depend on a signal begin where the effect by itself predicts best.
+    // Sizes that depend on a signal begin where the plain effect predicts best.
     let shares: Vec<Option<f64>> = candidates.iter().map(|one| best_share(problem, one, candidates, &tried)).collect();
     let is_near = |c: usize, k: usize| match shares[c] {
         Some(share) if !is_plain(c) => candidates[c].next_to(share)(k),

@@ -23,7 +23,7 @@ pub(super) const LEAST_FALL: f64 = 0.005;
 pub struct Trials<'p, 'a> {
     /// Trials as they are.
     pub problem: &'p Problem<'a>,
-    /// Trials with fewer samples of their records, of which the same count, for scoring many candidates.
+    /// The same trials with fewer samples, for scoring many candidates.
     pub quick: &'p Problem<'a>,
 }
 
@@ -64,7 +64,7 @@ pub struct Search<'p, 'a> {
     pub(super) known: HashMap<Key, Scored>,
     /// Sets whose last effect chance or a static map may explain.
     pub(super) unproven: HashMap<Key, Unproven>,
-    /// Whether effects are exchanged for others; not where a set that was found before predicts these trials as it did those.
+    /// Whether effects are exchanged; not where a set that was found before predicts these trials about as well.
     pub(super) exchanges: bool,
     pub(super) steps: Vec<Step>,
 }

@@ -1,4 +1,4 @@
-//! The search itself: a beam of sets that grow. The best of them is settled ([`settle`](super::settle)).
+//! Beam search over growing sets of effects. The best of them is settled ([`settle`](super::settle)).
 
 mod pairs;
 
@@ -37,12 +37,12 @@ impl Selected {
     }
 }
 
-/// A set that was found on trials that were taken otherwise.
+/// A set that was found on another version of the trials.
 #[derive(Debug, Clone, Copy)]
 pub struct Found<'s> {
     /// The set.
     pub state: &'s State,
-    /// Its losses on those trials, where they compare with losses on these.
+    /// Its losses on those trials, if comparable with losses on these.
     pub losses: Option<&'s Losses>,
 }
 
@@ -89,9 +89,9 @@ impl Search<'_, '_> {
         settled
     }
 
-    /// Extends every set of the beam by each of its best candidates that passes; of sets that differ in what sizes
-    /// depend on, the best is kept. A first effect that chance may explain is extended too: what another cause leaves
-    /// is chance to it. So is an effect that a static map imitates. Beside a second effect both are tested again.
+    /// Extends every set of the beam by each of its best candidates that passes; of sets that differ in what sizes depend on, the best is
+    /// kept. A first effect that chance may explain is extended too, since another cause may mask it. So is an effect that a static map
+    /// imitates. Both are tested again beside a second effect.
     fn grow(&mut self, beam: &[Scored], done: &mut Vec<Scored>) -> Vec<Scored> {
         let mut next: Vec<Scored> = Vec::new();
         for (score, state, losses) in beam {
@@ -102,7 +102,7 @@ impl Search<'_, '_> {
                 if grown.len() == self.criteria.beam {
                     break;
                 }
-                // Of a kind that passed the first is the best: the same effects in another form would only take its place.
+                // The first of a kind that passed is the best: the same effects in another form would only take its place.
                 let kinds = candidate.state.kinds(self.problem.rig);
                 if grown.contains(&kinds) {
                     continue;

@@ -1,4 +1,4 @@
-//! What follows the beam: effects are dropped, exchanged and split while J falls, and kinks of the map come last.
+//! After the beam search: effects are dropped, exchanged and split while J falls; kinks of the map come last.
 
 mod minor;
 
@@ -48,7 +48,7 @@ impl Search<'_, '_> {
     /// Drops and exchanges while J falls.
     fn tidy(&mut self, mut last: Scored) -> Scored {
         for _ in 0..ROUNDS {
-            // With J as it compares with the last set.
+            // J on equal terms with the last set.
             let mut best: Option<(f64, Scored, String)> = None;
             let bar = |best: &Option<(f64, Scored, String)>| best.as_ref().map_or(last.0 - LEAST_FALL, |best| best.0);
             for i in 0..last.1.effects.len() {
@@ -75,7 +75,7 @@ impl Search<'_, '_> {
                 if last.1.effects.len() < 2 || !self.exchanges {
                     continue;
                 }
-                // Beside the others as they are: without the effect they would take over what they can of it.
+                // The other effects keep their values: refined without it, they would absorb part of it.
                 let tried = self.expand(&without);
                 let others = possible(&tried, self.problem.rig).filter(|candidate| candidate.label != name);
                 for candidate in others.take(EXCHANGED) {
@@ -95,7 +95,7 @@ impl Search<'_, '_> {
     }
 
     /// Replaces a size that depends on a signal by a constant one and another effect, or a refinement by the simpler effect and another,
-    /// where that predicts better: either may stand for two effects.
+    /// where that predicts better: either may imitate two effects.
     fn split(&mut self, last: Scored) -> Scored {
         if !self.exchanges {
             return last;
@@ -123,9 +123,9 @@ impl Search<'_, '_> {
         next
     }
 
-    /// Returns a set beside a nominal form with kinks, where that predicts better by as much as an effect has to. Kinks come last: a
-    /// saturation or a dead zone has a name, and a map with kinks takes up what it does. In return, static effects on the inputs may
-    /// have stood for the kinks: it is also tried without them. Then a filter before the map may belong behind it.
+    /// Returns a set with kinks in the nominal form, where that predicts better by as much as an effect must. Kinks come last, since a map
+    /// with kinks absorbs a saturation or a dead zone, which have names. Static effects on the inputs may have imitated kinks: it is also
+    /// tried without them. Then a filter before the map may belong behind it.
     pub(super) fn bent(&mut self, last: &Scored) -> Option<Scored> {
         if last.1.effects.is_empty() && last.1.clock == 0.0 {
             return None;
@@ -147,7 +147,7 @@ impl Search<'_, '_> {
         is_better.then_some(best)
     }
 
-    /// Returns a set with kinks, and once more with the values that suit the first.
+    /// Returns a set with kinks, chosen again after refining the values.
     fn with_kinks(&mut self, state: State) -> Option<Scored> {
         let mut best: Option<Scored> = None;
         for _ in 0..2 {
@@ -158,8 +158,8 @@ impl Search<'_, '_> {
         best
     }
 
-    /// Returns J of a candidate as it compares with a set, where it may take that set's place: it costs less, or predicts better in most
-    /// blocks.
+    /// Returns J of a candidate on equal terms with a set, where it may take that set's place: it costs less, or predicts significantly
+    /// better over blocks.
     pub(super) fn replacing(&self, last: (&State, &Losses), candidate: &Tried) -> Option<f64> {
         let of = |state: &State| price(self.problem, state, self.criteria);
         let losses = self.on_equal_terms(last, (&candidate.state, &candidate.losses));
@@ -255,8 +255,8 @@ mod tests {
         }
     }
 
-    /// Oracle: y = q + 0.3 e^(−t/3 s) beside noise: what fades from the start of a trial is no effect. Creep forgives the state at the
-    /// start, and predicts better by that alone; with a part of 0.2 that comes late it is an effect, and stays.
+    /// Oracle: y = q + 0.3 e^(−t/3 s) beside noise: a decay from the start of a trial is no effect. Creep has its initial state projected
+    /// out, and predicts better by that alone; with a part of 0.2 that comes late it is an effect, and stays.
     #[test]
     fn an_unknown_start_is_no_reason_to_keep_an_effect() {
         let time = bench::time();

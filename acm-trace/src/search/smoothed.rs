@@ -1,5 +1,4 @@
-//! Errors with smoother actuators: noise of their encoders reaches the prediction, and effects that smooth remove it
-//! again.
+//! Errors with smoothed actuators: encoder noise reaches the prediction, and effects that smooth remove it.
 //!
 //! ```text
 //! q̄(t) = a,   min over a, b, c of Σ_k (1 − (τ_k/h)²)² (q_k − a − b τ_k − c τ_k²)²,   |τ_k| < h
@@ -10,7 +9,7 @@
 //! | `τ_k`  | t_k − t, time from the sample    | s               |
 //! | `h`    | half the window                  | s               |
 //!
-//! Motion that is a parabola within the window stays as it is. Fan & Gijbels (1996), Local Polynomial Modelling, ch. 3.
+//! Parabolic motion within the window is unchanged. Fan & Gijbels (1996), Local Polynomial Modelling, ch. 3.
 
 use acm_core::effects::times::windows;
 use acm_core::record::Record;

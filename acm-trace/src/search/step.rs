@@ -21,5 +21,5 @@ pub struct Step {
     pub candidates: Vec<(String, f64)>,
 }
 
-/// Number of candidates that the search examines in detail after a scan.
+/// Largest number of candidates that a step lists.
 pub(super) const LISTED: usize = 12;

@@ -53,7 +53,7 @@ impl Anchor {
         let taken = by.solve_all(&self.calibration);
         let own = &self.own - self.calibration.tr_mul(&taken);
         let with = self.others.column(a) - taken.tr_mul(&by.along);
-        // What is left of d is d − X c with c = (1, dθ): X holds the anchor's own displacement, then its slopes.
+        // The residual of d is d − X c with c = (1, dθ): X holds the anchor's own displacement, then its slopes.
         let right = with.rows(1, columns - 1) - own.view((1, 0), (columns - 1, 1)).column(0);
         let normal = own.view((1, 1), (columns - 1, columns - 1)).into_owned();
         let step = solution(normal, &right.into_owned());

@@ -9,8 +9,8 @@
 //! | `D_k, J_k` | what the imitator does at an anchor, and its slopes      | NM, NM × n |
 //! | `θ_k`  | some initial guesses of the imitator, and its values at the common size | n |
 //!
-//! Anchors know nothing of what they are to imitate, so they are evaluated once for all rows of the matrix. What is
-//! predicted to be imitated badly is not fitted.
+//! Anchors do not depend on the effect to be imitated, so they are evaluated once for all rows of the matrix. Imitations that are
+//! predicted to be poor are not fitted.
 
 use acm_core::effects::instance::Instance;
 use nalgebra::{DMatrix, DVector};

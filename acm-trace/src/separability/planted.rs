@@ -1,6 +1,6 @@
 //! One effect of a given size in outputs that the nominal model explains exactly.
 //!
-//! Its sizes grow together along the direction of a typical start; its shapes stay as they are there.
+//! Its sizes are scaled together from a typical initial guess; its shapes stay as in that guess.
 
 use std::ops::Range;
 
@@ -29,10 +29,10 @@ pub struct Planted {
 /// Share of the requested size below which an effect leaves no trace, within its bounds.
 const TRACE: f64 = 1e-3;
 
-/// Steps of the search for the size, and how near it comes.
+/// Most steps of the search for the size, and its tolerance.
 const STEPS: (usize, f64) = (40, 0.005);
 
-/// Largest size in typical ones.
+/// Largest size, in typical ones.
 const LARGEST: f64 = 1e4;
 
 impl Planted {

@@ -6,16 +6,16 @@
 //!
 //! | symbol | meaning                                                                             | unit |
 //! | `J`    | slopes of the weighted outputs with the calibrated parameters, calibration trials   |      |
-//! | `σ_c²` | mean square of what is left in the calibration trials                               |      |
-//! | `τ`    | integrated autocorrelation time of what is left, in samples                         | 1    |
+//! | `σ_c²` | mean square of the residual in the calibration trials                               |      |
+//! | `τ`    | integrated autocorrelation time of the residual, in samples                         | 1    |
 //!
-//! The 4 allows for model error that repeats itself. Sokal (1997), Monte Carlo Methods in Statistical Mechanics, § 3.
+//! The 4 allows for systematic model error. Sokal (1997), Monte Carlo Methods in Statistical Mechanics, § 3.
 
 use nalgebra::{DMatrix, DVectorView};
 
 use super::trials::Trials;
 
-/// Factor on the standard errors of white noise.
+/// Factor on the variances of white noise.
 const INFLATION: f64 = 4.0;
 
 /// Returns Λ from calibration trials, at their best fit; zero where there are none.

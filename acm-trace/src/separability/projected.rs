@@ -18,7 +18,7 @@ use super::recalibration::Recalibration;
 use super::start::forget_start;
 use super::trials::Trials;
 
-/// Stopping criteria of a fit: its share is to be known to a hundredth or so.
+/// Stopping criteria of a fit: the share needs an accuracy of about a hundredth.
 const ENDS: Options = Options { iterations: 5, cost: 1e-3, step: 1e-2, gradient: 1e-2, radius: 10.0 };
 
 /// Imitation as a least-squares problem: one sample with all NM + P residuals.

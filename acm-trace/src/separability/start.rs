@@ -19,8 +19,8 @@ use crate::series::warm_up;
 /// Prior of the unknown state at the start of a trial, as a share of each actuator's range.
 const STATE: f64 = 0.1;
 
-/// Takes out of each column (NM rows) what an unknown start of each trial explains of it, where the effect's memory is
-/// longer than the warm-up.
+/// Removes from each column (NM rows) what an unknown initial state of each trial explains, where the effect's memory is longer than the
+/// warm-up.
 pub fn forget_start(trials: &Trials, instance: &Instance, theta: &[f64], columns: &mut DMatrix<f64>) {
     let acts = instance.site() == Site::Actuation;
     let Some(tau) = instance.memory(theta).filter(|_| acts) else { return };

@@ -1,17 +1,17 @@
-//! Trials with the nominal model around them, linear in its actuators and in what calibrates it.
+//! Trials with the nominal model linearised in its actuators and its calibrated parameters.
 //!
 //! ```text
 //! y(q̃, δ) = y + ∂y/∂q (q̃ − q) + ∂y/∂δ δ
 //! ```
 //!
 //! | symbol | meaning                                                              | shape     |
-//! | `q, q̃` | actuators as recorded, and as an effect leaves them                  | A columns |
-//! | `y`    | what the model predicts at the N samples that are looked at          | N × M     |
+//! | `q, q̃` | actuators as recorded, and after an effect                           | A columns |
+//! | `y`    | prediction of the model at the N compared samples                    | N × M     |
 //! | `δ`    | change of the calibrated parameters                                  | P         |
 //! | `w`    | weight of an output; zero where a sample does not count              | NM        |
 //! | `J`    | w ∂y/∂δ                                                              | NM × P    |
 //!
-//! Rows are samples, then outputs; all trials below one another.
+//! Rows are samples, then outputs; trials are stacked.
 
 use std::ops::Range;
 

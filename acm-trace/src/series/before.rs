@@ -1,8 +1,8 @@
-//! What the actuators did before a trial, which decides where the memory of effects begins.
+//! History of the actuators before a trial, which sets the initial memory of effects.
 //!
 //! | form | ahead of the first sample | for |
 //! | --- | --- | --- |
-//! | turn | the actuators rest at their first values, and turn at others in between | play, friction, hysteresis: memory of the way |
+//! | turn | the actuators rest at their first values, and turn at others in between | play, friction, hysteresis: memory of reversals |
 //! | rest | the actuators rest at other values | lags whose time depends on their state: memory of time |
 
 use acm_core::record::Record;
@@ -13,12 +13,12 @@ use acm_core::{resting, turning};
 pub enum Before {
     /// They rested at these values.
     Rest(Vec<f64>),
-    /// They turned at these values, and rested at the first ones of the trial.
+    /// They rested at the first values of the trial, and turned at these.
     Turn(Vec<f64>),
 }
 
 impl Before {
-    /// Returns a record that begins with it.
+    /// Returns a record that begins with the history.
     pub fn ahead_of(&self, record: &Record) -> Record {
         match self {
             Self::Rest(rest) => resting(record, rest),
@@ -26,7 +26,7 @@ impl Before {
         }
     }
 
-    /// Returns the number of samples that it takes.
+    /// Returns the number of samples that it adds.
     pub fn samples(&self) -> usize {
         match self {
             Self::Rest(_) => 1,

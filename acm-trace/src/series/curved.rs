@@ -1,9 +1,9 @@
-//! Actuators that bend between samples by more than what is left of the outputs.
+//! Actuators whose curvature between samples matters for the residual.
 //!
-//! Halfway between two samples a quartic through the last five lies off the straight line by e(t). An input that is wrong by a share
-//! `rms(e) / std(q)` of what it does moves the outputs by about as much of what they do. Where that is little beside the share of the
-//! outputs that is left, it cannot be told, and need not be. A signal of which straight lines miss a tenth moves too fast for its samples:
-//! it may be held as well, as a random command is that changes at every sample.
+//! Halfway between two samples a quartic through the last five differs from the straight line by e(t). An input with a relative error of
+//! `rms(e) / std(q)` changes the outputs by about the same share. Where that is small beside the residual share of the outputs, it cannot
+//! be detected, and does not matter. A signal of which linear interpolation misses a tenth moves too fast for its samples: it may be held
+//! instead, like a random command that changes at every sample.
 
 use acm_core::InterSample;
 
@@ -12,11 +12,11 @@ use crate::case::Case;
 /// Smallest ratio of the two shares.
 const COUNTS: f64 = 0.5;
 
-/// Share that straight lines miss of a signal that moves too fast for its samples: that of a sine with seven samples in a period.
+/// Share that linear interpolation misses of a signal too fast for its samples: that of a sine with seven samples in a period.
 const TOO_FAST: f64 = 0.1;
 
-/// Returns the actuators that may follow a quartic between samples: of which straight lines miss these shares, where a share `left` of what
-/// the outputs do is left.
+/// Returns the actuators that may follow a quartic between samples; `missed` has the shares that linear interpolation misses, `left` is
+/// the residual share.
 pub fn curved(missed: &[f64], left: f64) -> Vec<usize> {
     above(missed, COUNTS * left)
 }
@@ -30,8 +30,8 @@ fn above(missed: &[f64], share: f64) -> Vec<usize> {
     (0..missed.len()).filter(|&a| missed[a] > share).collect()
 }
 
-/// Returns the share of what each actuator does that straight lines between its samples miss; none where predictions come with the data,
-/// which are recorded at samples.
+/// Returns the share of each actuator's motion that linear interpolation misses; none where predictions come with the data, which are
+/// recorded at samples.
 pub fn missed(case: &Case) -> Vec<f64> {
     let actuators = if case.is_predicted() { 0 } else { case.rig.actuators.len() };
     let mut sums = vec![(0.0, 0.0); actuators];

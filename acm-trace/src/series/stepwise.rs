@@ -1,7 +1,7 @@
 //! Actuators that move in steps, and may be held between samples.
 //!
-//! What rests between samples, and jumps from one to the next by a share of its range, is a command and not a motion: it is held
-//! between samples, and does not go straight to the next. A motion that is quantised rests and jumps as well, by a small share.
+//! A signal that rests between samples, and jumps from one to the next by a share of its range, is a command and not a motion: it is held
+//! between samples, not interpolated. A quantised motion rests and jumps as well, by a small share.
 
 use crate::case::{Case, Trial};
 
@@ -17,7 +17,7 @@ pub fn stepwise(case: &Case) -> Vec<usize> {
     (0..case.rig.actuators.len()).filter(|&a| moves(a)).collect()
 }
 
-/// Returns whether at least half of the way of an actuator is jumps with rest before and behind them, of the size of [`JUMP`].
+/// Returns whether at least half of an actuator's path is jumps between rests, of mean size [`JUMP`] or more.
 fn moves_in_steps(trial: &Trial, a: usize, case: &Case) -> bool {
     let moved: Vec<f64> = trial.record.actuators[a].windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
     let jumps: Vec<f64> =

@@ -1,4 +1,4 @@
-//! What actuators may do between samples beside going straight, and whether that matters.
+//! Alternatives to linear interpolation of actuators between samples.
 
 use acm_core::InterSample;
 
@@ -10,7 +10,7 @@ use crate::search::select::{Search, Selected, sum};
 use crate::series::curved::{curved, missed, too_fast};
 use crate::series::stepwise::stepwise;
 
-/// Returns what actuators may do between samples that they do not yet: a quartic for straight lines, and held for both.
+/// Returns the alternatives to the present behaviour: quartic or hold instead of linear, hold instead of quartic.
 pub(super) fn may_go_otherwise(
     prepared: &Prepared,
     now: &InterSample,
@@ -34,22 +34,21 @@ pub(super) fn may_go_otherwise(
     all
 }
 
-/// Returns whether what was found predicts other trials worse or better by the price of an effect: whether it matters what actuators do
-/// between samples.
+/// Returns whether the error of what was found changes on other trials by the price of an effect: then inter-sample behaviour matters.
 pub(super) fn is_moved(problem: &Problem, selected: &Selected, criteria: &Criteria) -> bool {
     let now = cross_validate(problem, &selected.last).map_or(f64::NAN, |losses| sum(&losses));
     let change = (now / sum(&selected.last_losses)).ln().abs();
     change.is_nan() || change > criteria.price
 }
 
-/// Returns the root of the share of what the outputs do that a sum of squares is of.
+/// Returns the root of a sum of squares relative to that of the outputs.
 fn share_left(problem: &Problem, left: f64) -> f64 {
     let moved: f64 =
         problem.targets.iter().flat_map(|targets| targets.column_iter().map(|y| y.variance() * y.len() as f64)).sum();
     (left / moved).sqrt()
 }
 
-/// Says what the actuators do between samples.
+/// Describes the inter-sample behaviour.
 pub(super) fn told_between(prepared: &Prepared, inter_sample: &InterSample) -> String {
     let names: Vec<&str> =
         inter_sample.actuators().iter().map(|&a| prepared.case.rig.actuators[a].name.as_str()).collect();

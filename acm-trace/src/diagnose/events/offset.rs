@@ -11,8 +11,7 @@
 //! | `d`, `δ` | offset of the outputs, of an actuator | of the outputs, of the actuator |
 //! | `d_q` | offset in each quarter of the trial, w_q its weight | the same |
 //!
-//! Quarters that differ among themselves say how much a slow residual is off in any trial by chance: that much is
-//! taken off.
+//! The spread of the quarters estimates the offset that a slow residual has by chance, which is subtracted.
 
 use acm_core::display::shown;
 use nalgebra::DVector;
@@ -25,13 +24,13 @@ use crate::diagnose::samples::{counted, median};
 /// Number of parts of a trial that are compared with each other.
 const PARTS: usize = 4;
 
-/// Samples in each part, at least.
+/// Fewest samples in a part.
 const LEAST_PART: usize = 5;
 
 /// Threshold over chance, in standard deviations.
 const BEYOND_CHANCE: f64 = 3.0;
 
-/// Share of the reduction by all offsets from which one trial alone is named.
+/// Share of the reduction by all offsets above which one trial is named.
 const ONE_OF_ALL: f64 = 0.7;
 
 /// A fit of an offset to one trial.
@@ -51,8 +50,7 @@ impl Offset {
     }
 }
 
-/// Returns the offset of one trial where it dominates, else those of all; none where trials are no more off than their
-/// parts are.
+/// Returns the offset of one trial where it dominates, else those of all; none where trials differ no more than their parts.
 pub(crate) fn offsets(remainder: &Remainder) -> Option<Signature> {
     let outputs = remainder.outputs();
     let rows: Vec<Vec<usize>> = remainder.trials.iter().map(|trial| counted(trial, outputs)).collect();

@@ -2,7 +2,7 @@
 
 use crate::diagnose::remainder::Remainder;
 
-/// A signature before it is put in relation.
+/// A signature, without its share of the excess.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Signature {
     /// Kind, as in [`Event::kind`](crate::finding::Event::kind).
@@ -20,7 +20,7 @@ pub(crate) fn chi_square_ratio(degrees: f64, z: f64) -> f64 {
     (1.0 - spread + z * spread.sqrt()).powi(3)
 }
 
-/// Returns the unit of the residual: that of the outputs where it is one.
+/// Returns the unit of the residual if all outputs have the same.
 pub(crate) fn unit<'a>(remainder: &Remainder<'a>) -> &'a str {
     let outputs = &remainder.rig.outputs;
     let first = outputs.first().map_or("", |output| output.unit.as_str());

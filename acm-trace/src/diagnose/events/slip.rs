@@ -7,12 +7,11 @@
 //! | symbol | meaning | unit |
 //! | --- | --- | --- |
 //! | `b` | offset after the slip | of the actuator |
-//! | `a` | before: 0; free where there is one trial alone, as calibration shares the slip out | of the actuator |
+//! | `a` | offset before: 0; free with a single trial, where calibration splits the slip | of the actuator |
 //!
-//! Running sums give every t₀ of every trial and actuator in one pass. A slip is sudden: the offsets in a short window
-//! before and after it must differ as a and b do, and by more than those of neighbouring windows elsewhere, which
-//! those of a drift or a random walk do not. And it stands out: offsets in all windows scatter little about a and b,
-//! which those of slow noise do not.
+//! Running sums give every t₀ of every trial and actuator in one pass. A slip is sudden: the offsets in short windows before and after it
+//! must differ as a and b do, and by more than those of neighbouring windows elsewhere. This excludes drifts and random walks. Offsets in
+//! all windows must also scatter little about a and b, which excludes slow noise.
 
 use acm_core::display::shown;
 use rayon::prelude::*;
@@ -31,8 +30,7 @@ const SUDDEN: std::ops::Range<f64> = 0.5..1.7;
 /// Squared threshold, as a multiple of the difference of neighbouring windows elsewhere.
 const BEYOND_NEIGHBOURS: f64 = 8.0;
 
-/// Smallest ratio of a slip's reduction to a window's scatter, or to the noise of one sample: beyond the best of all
-/// t₀.
+/// Smallest ratio of a slip's reduction to a window's scatter, or to the noise of one sample: above the best t₀ by chance.
 const BEYOND_CHANCE: f64 = 25.0;
 
 /// Smallest ratio of a slip's reduction to that of an offset of the whole trial.
@@ -47,7 +45,7 @@ struct Found {
     taken: f64,
 }
 
-/// Returns the slip that takes most; none where none is sudden.
+/// Returns the slip with the largest reduction; none if none is sudden.
 pub(crate) fn slip(remainder: &Remainder) -> Option<Signature> {
     let actuators = remainder.rig.actuators.len();
     let tasks: Vec<(usize, usize)> =
@@ -131,7 +129,7 @@ impl Sums {
         whole.filter(|from| *from >= at || from + window <= at).collect()
     }
 
-    /// Returns the mean of what offsets of single windows take about `before` row `at` and `after`.
+    /// Returns the mean reduction by offsets of single windows, relative to `before` row `at` and `after`.
     fn scatter(&self, window: usize, at: usize, before: f64, after: f64) -> f64 {
         let windows = self.windows(window, at);
         let of = |&from: &usize| {

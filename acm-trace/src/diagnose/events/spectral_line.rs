@@ -9,7 +9,7 @@
 //! | --- | --- | --- |
 //! | `f` | frequency, from one period in a stretch up to half the rate of sampling | Hz |
 //! | `P` | Lomb–Scargle power on time stamps as they are | of the outputs, squared |
-//! | `continuum` | the same a few lobes beside f; on the right side as of a spectrum that falls with 1/f² | the same |
+//! | `continuum` | P a few lobes beside f; above f corrected for a spectrum that falls with 1/f² | the same |
 //!
 //! A line stands out of its neighbourhood, and slow noise does not. The search runs over stretches of a few hundred
 //! samples, where lobes are wide, and ends with whole trials. Scargle (1982), Astrophys. J. 263.
@@ -44,7 +44,7 @@ const BESIDE: std::ops::Range<f64> = 1.5..6.5;
 /// Threshold over chance, in standard deviations: one of thousands of frequencies exceeds 4.
 const BEYOND_CHANCE: f64 = 4.0;
 
-/// Share of a signal's variance at the same frequency from which the signal is mentioned.
+/// Share of a signal's variance at the same frequency above which it is mentioned.
 const ALSO: f64 = 0.2;
 
 /// One stretch of a trial.
@@ -132,7 +132,7 @@ pub(crate) fn spectral_line(remainder: &Remainder) -> Option<Signature> {
         .max_by(|a, b| (a.1 - a.2).total_cmp(&(b.1 - b.2)))?;
     let coarse = lobe * (1.0 + k as f64 / PER_LOBE);
     let found = refined(&trials, coarse, lobe);
-    // A stretch has as many free numbers as a trial, so whole trials hold less of the continuum.
+    // A stretch has as many free coefficients as a trial, so whole trials hold less of the continuum.
     let below = continuum / power * found.power * (trials.len() as f64 / stretches.len() as f64).min(1.0);
     let taken = found.power - below;
     let samples: usize = trials.iter().map(|trial| trial.time.len()).sum();
@@ -190,8 +190,7 @@ struct Line {
     power: f64,
 }
 
-/// Returns the frequency about `coarse` that whole trials agree on: between the steps of a search by the parabola
-/// through the highest.
+/// Returns the line near `coarse` with the largest power over whole trials, refined by a parabola through the highest steps.
 fn refined(trials: &[Stretch], coarse: f64, lobe: f64) -> Line {
     let longest = trials.iter().map(Stretch::length).fold(0.0, f64::max);
     let step = (0.1 / longest).min(0.1 * lobe);

@@ -7,8 +7,8 @@
 //! | x − lag_τ(x) | actuators and contexts, three τ between 4 steps and a sixth of a trial | 3 (A + E) |
 //! | play_w(x) − x | actuators, w of 4 % and 12 % of the span | 2A |
 //! | products | of pairs of x, and of x with v and tanh v | two fifths of the rest |
-//! | sin, cos | of actuators, 1 to 8 turns over the span | a quarter of the rest |
-//! | cos(wᵀx + b) | of all of the first rows, w and b drawn | up to 100 |
+//! | sin, cos | of actuators, 1 to 8 periods over the span | a quarter of the rest |
+//! | cos(wᵀx + b) | columns of the first four rows, w and b drawn | up to 100 |
 //!
 //! Rahimi & Recht (2007), NIPS 20 (random features).
 
@@ -27,7 +27,7 @@ use crate::diagnose::readout::Columns;
 use crate::diagnose::remainder::Remainder;
 use crate::diagnose::samples::{Sample, gather, median, median_step, moments, standardised};
 
-/// A rate that is this share of the typical one bends tanh.
+/// Scale of tanh, as a share of the typical rate.
 const SLOW: f64 = 0.3;
 
 /// Half widths of the play, as a share of the span.

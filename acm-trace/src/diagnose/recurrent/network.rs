@@ -20,7 +20,7 @@ const BIAS: f64 = 0.1;
 /// Number of steps after which the state at the start has settled: its remainder falls with the powers of [`RADIUS`].
 const SETTLING: usize = 40;
 
-/// Purpose number of the stream that weights are drawn from.
+/// Number of the random stream of the weights.
 const STREAM: u64 = 2;
 
 /// Units with their weights.

@@ -1,17 +1,16 @@
-//! Vectors beside orthonormal directions. Gram–Schmidt, twice: Giraud, Langou & Rozložník (2005), Comput. Math.
-//! Appl. 50(7).
+//! Components orthogonal to given directions. Gram–Schmidt, twice: Giraud, Langou & Rozložník (2005), Comput. Math. Appl. 50(7).
 
 use nalgebra::{DMatrix, DVectorView, DVectorViewMut};
 
 use crate::tall::product;
 
-/// Share of a term's mean square beside the others below which it counts as rounding.
+/// Part orthogonal to others, relative to the whole, below which it is rounding.
 pub(super) const RANK: f64 = 1e-6;
 
-/// Vectors that are taken together: most of the work is a product of matrices then.
+/// Vectors of a panel: most of the work is then a matrix product.
 const PANEL: usize = 32;
 
-/// Returns orthonormal directions that span the columns of a matrix. One that is rounding beside those before it adds none.
+/// Returns an orthonormal basis of the columns of a matrix. One that depends on those before it up to rounding adds none.
 pub(super) fn basis(columns: &DMatrix<f64>) -> Vec<Vec<f64>> {
     let (rows, count) = columns.shape();
     let mut found: Vec<Vec<f64>> = Vec::new();
@@ -38,7 +37,7 @@ pub(super) fn direction(vector: Vec<f64>, others: &[Vec<f64>]) -> Option<Vec<f64
     direction_of(vector, others, whole)
 }
 
-/// Returns the same where the norm of the vector was `whole` before components were taken out of it.
+/// Does the same for a vector whose norm was `whole` before components were removed.
 fn direction_of(vector: Vec<f64>, others: &[Vec<f64>], whole: f64) -> Option<Vec<f64>> {
     // Twice, because once leaves rounding of the size of what was taken away.
     let left = without(without(vector, others), others);

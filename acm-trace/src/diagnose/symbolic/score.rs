@@ -6,10 +6,10 @@ use super::Column;
 use super::Search;
 use super::normal::Normal;
 
-/// Standard errors over the blocks by which all terms together must reach their share (more where blocks are few).
+/// Smallest mean gain of all terms together, in standard errors over the blocks (more where blocks are few).
 const LEAST_ERRORS: f64 = 2.5;
 
-/// Mean square on blocks left out, and block by block.
+/// Mean squares on blocks left out.
 pub(super) struct Score {
     /// Mean over all blocks.
     pub mean: f64,
@@ -18,7 +18,7 @@ pub(super) struct Score {
 }
 
 impl Score {
-    /// Returns whether the mean gain over blocks exceeds its standard error often enough.
+    /// Returns whether the mean gain over blocks is significant.
     pub fn better_than(&self, other: &Self) -> bool {
         let gains: Vec<f64> = self.blocks.iter().zip(&other.blocks).map(|(mine, other)| other - mine).collect();
         let n = gains.len() as f64;

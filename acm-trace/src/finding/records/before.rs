@@ -1,4 +1,4 @@
-//! What was before a trial, as a result.
+//! Actuator history of a trial.
 
 use serde::{Deserialize, Serialize};
 
@@ -19,6 +19,6 @@ pub struct BeforeTrial {
 pub enum BeforeForm {
     /// It rested there.
     Rest,
-    /// It turned there, and then rested at its first value.
+    /// It rested at its first value, and then turned there.
     Turn,
 }

@@ -11,7 +11,7 @@ pub struct Data {
     pub title: String,
     /// SHA-256 of manifest and files.
     pub hash: String,
-    /// A simulation made them.
+    /// Whether they are simulated.
     pub synthetic: bool,
     /// Names of the trials that calibrate.
     pub calibration: Vec<String>,

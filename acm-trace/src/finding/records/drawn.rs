@@ -54,7 +54,7 @@ pub struct Trace {
 /// Errors of one held-out trial.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct TrialErrors {
-    /// Name of the model.
+    /// Name of the trial.
     pub name: String,
     /// Error of the nominal model.
     pub nominal: f64,

@@ -18,24 +18,24 @@ pub struct FoundEffect {
     pub parameters: Vec<FoundParameter>,
     /// Root mean square of the effect's change of the outputs, in the unit of the errors.
     pub size: f64,
-    /// Root of the mean square on blocks left out that returns where the effect is taken out and the others are refined, in the
-    /// unit of the errors.
+    /// Root of the rise of the mean square on blocks left out when the effect is removed and the others are refined, in the unit of the
+    /// errors.
     #[serde(default)]
     pub removes: f64,
     /// Confidence in the name.
     pub confidence: Confidence,
-    /// Why the name is not sure, however often it is chosen again.
+    /// Reasons why the name is not sure, whatever its share.
     #[serde(default)]
     pub doubts: Vec<Doubt>,
-    /// Root mean square of the part of what is left that follows the effect, in the unit of the errors; none where that is too little to
-    /// put the name in doubt, or it is in doubt for another reason.
+    /// Root mean square of the residual that the effect predicts, in the unit of the errors; none where that is too little to put the name
+    /// in doubt, or the effect is in doubt for another reason.
     #[serde(default)]
     pub follows: Option<f64>,
     /// Names of effects that explain as much, itself first.
     pub equivalent: Vec<String>,
     /// Effects that were chosen instead in resamples of the blocks.
     pub alternatives: Vec<Alternative>,
-    /// Whether it acts in the calibration trials too; none where there are none of their own.
+    /// Whether it acts in the calibration trials too; none without calibration trials.
     pub in_calibration: Option<bool>,
     /// Origin of the equation.
     pub source: String,
@@ -83,7 +83,7 @@ pub struct FoundParameter {
     pub interval: [f64; 2],
     /// The context signal that this value is multiplied with.
     pub depends_on: Option<String>,
-    /// Whether the value rests on a bound that the effect admits. The data would move it beyond.
+    /// Whether the value rests on a bound of the effect: the data would move it beyond.
     #[serde(default)]
     pub at_bound: bool,
     /// Whether the data leave the value undetermined: no finite interval, or one that is many times wider than a
@@ -119,9 +119,9 @@ pub enum Doubt {
     AtBound,
     /// The intervals of all its sizes hold zero.
     MayBeZero,
-    /// Other effects take back most of what it does to the outputs.
+    /// Other effects cancel most of what it does to the outputs.
     TakenBack,
-    /// More of what is left follows it than chance explains: another effect of its kind may act.
+    /// It predicts more of the residual than chance: another effect of its kind may act.
     Followed,
     /// The verdict is unknown structure.
     UnknownStructure,

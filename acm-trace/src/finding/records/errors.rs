@@ -3,7 +3,7 @@
 use acm_core::display::Display;
 use serde::{Deserialize, Serialize};
 
-/// A number with its 95 % interval: bootstrap over trials (or blocks).
+/// A number with its 95 % interval: bootstrap over blocks.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Estimate {
     /// Root mean square error.

@@ -25,7 +25,7 @@ pub struct Left {
 pub struct Probe {
     /// Share of the variance explained on blocks left out.
     pub explained: f64,
-    /// Quantile of 95 % of `explained` on shifted residuals.
+    /// 95 % quantile of `explained` on shifted residuals.
     pub by_chance: f64,
     /// Share of shifted residuals that are explained at least as well.
     pub p: f64,
@@ -45,7 +45,7 @@ impl Probe {
 pub struct Event {
     /// Kind: `slip`, `spectral line`, `offset of one trial`, `offset of each trial`.
     pub kind: String,
-    /// Share of the variance over the noise that it explains.
+    /// Share of the variance above the noise that it explains.
     pub share: f64,
     /// Trial, time and size, in words.
     pub what: String,

@@ -1,4 +1,4 @@
-//! The problem about the inputs that effects leave.
+//! The problem at the inputs after effects.
 
 use nalgebra::DMatrix;
 
@@ -8,8 +8,8 @@ use crate::fit::problem::{Base, Problem, targets};
 use crate::fit::state::{Part, State};
 
 impl Problem<'_> {
-    /// Returns the problem about the inputs that the effects of a state leave: there loads bend the arm, and there the polynomial that stands
-    /// for the strain model is made exact. None without a strain model, or where no effect acts on the inputs.
+    /// Returns the problem with loads and strain model evaluated at the inputs after the effects of a state; the polynomial that
+    /// approximates the strain model becomes exact there. None without a strain model, or where no effect acts on the inputs.
     pub fn about(&self, state: &State) -> Option<Self> {
         let Base { stands_for, strain: Some(strain) } = self.base? else { return None };
         let acts = state.clock != 0.0 || state.effects.iter().any(|placed| placed.part() == Part::Input);
@@ -44,7 +44,7 @@ mod tests {
     use crate::fit::bench;
     use crate::fit::form::Form;
 
-    /// Oracle: with a gain of 1.2 the arm is where its strain model has it at 1.2 q, whatever straight line stands for the model.
+    /// Oracle: with a gain of 1.2 the arm is where its strain model has it at 1.2 q, whatever straight line approximates it.
     #[test]
     fn the_base_is_exact_at_the_inputs_of_a_state() {
         let rig = bench::rig(&["q"], &[], &["x", "y", "z"]);

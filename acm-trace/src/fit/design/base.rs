@@ -1,4 +1,4 @@
-//! What is given beside the columns: the base, loads on the arm, and what acts after it.
+//! Part without coefficients: the base, loads on the arm, and what acts after them.
 
 use acm_core::augmented;
 use acm_core::effects::Site;
@@ -9,7 +9,7 @@ use crate::fit::columns::{Key, Kind};
 use crate::fit::problem::Problem;
 use crate::fit::state::{Part, Placed, State};
 
-/// Returns g at the inputs as the effects left them; zero without a base.
+/// Returns g at the inputs after effects; zero without a base.
 pub fn base(problem: &Problem, q: &[f64], rows: usize) -> DMatrix<f64> {
     match problem.base {
         Some(base) => base.stands_for.predict(&DMatrix::from_column_slice(rows, problem.range.len(), q)),
@@ -17,8 +17,7 @@ pub fn base(problem: &Problem, q: &[f64], rows: usize) -> DMatrix<f64> {
     }
 }
 
-/// Adds loads on the arm, and then all other effects that act after it, at the samples that count, without what is
-/// added to every prediction.
+/// Adds loads on the arm, and then all other effects that act after it, at the samples that count, without the offset s − g.
 pub fn loaded(problem: &Problem, state: &State, s: usize, mut given: DMatrix<f64>) -> DMatrix<f64> {
     let series = &problem.series[s];
     let others = acting(state, series, Part::Other);

@@ -8,7 +8,7 @@ use crate::fit::form::angles::sums;
 use crate::fit::problem::Problem;
 use crate::fit::state::State;
 
-/// Functions of the actuators that the correction is a sum of.
+/// Basis functions of the correction.
 pub struct Basis {
     monomials: Monomials,
     /// Actuator and place of each kink, the place in half ranges from the middle.

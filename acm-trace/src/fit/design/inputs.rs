@@ -1,4 +1,4 @@
-//! Actuators of a trial as the effects before the map leave them.
+//! Actuators of a trial after the effects that act before the map.
 
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -24,7 +24,7 @@ pub fn acting<'s>(state: &'s State, series: &Series, part: Part) -> Vec<&'s Plac
     state.effects.iter().map(AsRef::as_ref).filter(acts).collect()
 }
 
-/// Returns the actuators as the input effects leave them, all T samples.
+/// Returns the actuators after the input effects, all T samples.
 pub fn inputs(problem: &Problem, state: &State, s: usize) -> Vec<Vec<f64>> {
     let record = record(problem, state, s);
     let chain = acting(state, &problem.series[s], Part::Input);

@@ -1,4 +1,4 @@
-//! The residual of a state with given coefficients, y − X β, without its columns: they are summed before they are filtered.
+//! The residual y − X β of a state with given coefficients; columns are summed before they are filtered.
 
 use nalgebra::DMatrix;
 use rayon::prelude::*;

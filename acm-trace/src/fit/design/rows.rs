@@ -71,7 +71,7 @@ pub fn kept(problem: &Problem, s: usize) -> Vec<usize> {
     problem.kept[s].iter().map(|&k| problem.series[s].rows[k]).collect()
 }
 
-/// Returns the weighted targets beside a base.
+/// Returns the weighted targets less a base.
 pub fn targets(
     problem: &Problem,
     state: &State,
@@ -157,7 +157,7 @@ fn nominal_key(problem: &Problem, state: &State, s: usize, unrecorded: &Unrecord
     Key::together(Kind::Nominal, s, &chain, &settings)
 }
 
-/// What the columns of the correction depend on beside the inputs.
+/// What the columns of the correction depend on besides the inputs.
 fn form_key(state: &State) -> Vec<f64> {
     let degree = state.form.degree.map_or(-1.0, |degree| degree as f64);
     [&[state.clock, degree, state.form.sums.key()], &state.form.powers.key()[..], &state.form.kinks.key()[..]].concat()
@@ -231,7 +231,7 @@ fn where_it_acts(
     }
 }
 
-/// Returns the columns beside one another.
+/// Returns the columns as a matrix.
 pub fn matrix(columns: &[Arc<Vec<f64>>], rows: usize) -> DMatrix<f64> {
     let mut x = DMatrix::zeros(rows, columns.len());
     x.column_iter_mut().zip(columns).for_each(|(mut to, from)| to.copy_from_slice(from));

@@ -4,8 +4,8 @@
 //! a·cos(n·q) + b·sin(n·q),   n_j = −1, 0, 1 for actuators in rad, else 0
 //! ```
 //!
-//! Places of a chain of revolute joints, and torques of its weight, are linear in them (Siciliano et al. 2009, Robotics, ch. 2 and 7).
-//! Where all axes are parallel, joints that follow one another are enough: links stand at q_1 + … + q_k, and forces across a link turn with
+//! Positions of a chain of revolute joints, and its gravity torques, are linear in them (Siciliano et al. 2009, Robotics, ch. 2 and 7).
+//! Where all axes are parallel, sums of consecutive joints suffice: links have angles q_1 + … + q_k, and forces across a link turn with
 //! q_i + … + q_k.
 
 use acm_core::rig::{Rig, Signal};
@@ -17,7 +17,7 @@ pub enum Sums {
     None,
     /// Those of all joints from the first on, q_1 + … + q_k.
     Chain,
-    /// Those of joints that follow one another, q_i + … + q_k.
+    /// Those of consecutive joints, q_i + … + q_k.
     Planar,
     /// Those of at most so many joints, with either sign.
     UpTo(usize),
@@ -45,7 +45,7 @@ pub fn sums(rig: &Rig, which: Sums) -> Vec<Vec<i8>> {
     }
 }
 
-/// Returns the sums of joints that follow one another, beginning with one of the first so many.
+/// Returns the sums of consecutive joints that begin with one of the first `first`.
 fn planar(rig: &Rig, first: usize) -> Vec<Vec<i8>> {
     let angles: Vec<usize> = (0..rig.actuators.len()).filter(|&j| is_angle(&rig.actuators[j])).collect();
     let of = |chain: &[usize]| (0..rig.actuators.len()).map(|j| i8::from(chain.contains(&j))).collect();

@@ -6,7 +6,7 @@
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Powers(u64);
 
-/// Bits of one power, and number of actuators that have room.
+/// Bits of one power, and largest number of actuators.
 const BITS: (u32, usize) = (4, 16);
 
 /// A power that is not limited.

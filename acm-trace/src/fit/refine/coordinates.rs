@@ -1,4 +1,4 @@
-//! Nonlinear parameters of a state as coordinates without unit.
+//! Nonlinear parameters of a state as dimensionless coordinates.
 //!
 //! ```text
 //! u = 1 + ln(θ/θ₀) for a parameter that has no sign, 1 + (θ − θ₀)/s for one that has
@@ -11,7 +11,7 @@ use acm_core::effects::ParameterSpec;
 use crate::fit::problem::Problem;
 use crate::fit::state::{Placed, State};
 
-/// Difference that slopes are taken from, in u; smaller for a resonance, and for an effect that is periodic in an actuator.
+/// Finite-difference step in u; smaller for a resonance, and for an effect that is periodic in an actuator.
 const STEP: (f64, f64) = (0.02, 0.002);
 
 /// A nonlinear parameter that a fit moves.
@@ -32,7 +32,7 @@ pub(crate) fn places(state: &State) -> Vec<Place> {
     all
 }
 
-/// A coordinate without unit.
+/// A dimensionless coordinate.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Coordinate {
     place: Place,
@@ -41,7 +41,7 @@ pub(crate) struct Coordinate {
     upper: f64,
     /// Scale s of a parameter that has a sign; none for a logarithmic one.
     scale: Option<f64>,
-    /// Difference that slopes are taken from.
+    /// Finite-difference step.
     step: f64,
 }
 
@@ -72,7 +72,7 @@ impl Coordinate {
         value.max(self.lower).min(self.upper)
     }
 
-    /// Returns the difference that slopes at u are taken from: backwards on the upper bound.
+    /// Returns the finite-difference step at u: backwards on the upper bound.
     pub fn step_from(&self, u: f64) -> f64 {
         if self.value(u + self.step) == self.value(u) { -self.step } else { self.step }
     }

@@ -1,4 +1,4 @@
-//! The residual of a state by its nonlinear parameters u, with all linear ones solved for.
+//! The residual of a state over its nonlinear parameters u, with all linear ones solved for.
 //!
 //! ```text
 //! J⁺ = J + (r⁺ − r − J p) pᵀ / pᵀp
@@ -7,11 +7,11 @@
 //! | symbol   | meaning                                                        |
 //! | -------- | -------------------------------------------------------------- |
 //! | `J, r`   | slopes by differences, and the residual, at one point          |
-//! | `p`      | step that leads to the next                                    |
+//! | `p`      | step to the next point                                         |
 //! | `J⁺, r⁺` | slopes and residual there                                      |
 //!
-//! Differences take an evaluation for each parameter, so they are taken at every second point, and J⁺ serves the one between.
-//! Broyden (1965), Mathematics of Computation 19.
+//! Differences need one evaluation per parameter, so they are computed at every second point; J⁺ serves the points between. Broyden
+//! (1965), Mathematics of Computation 19.
 
 use std::ops::Range;
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -39,7 +39,7 @@ pub struct ProjectedResidual<'r, 'a> {
     state: &'r State,
     coordinates: &'r [Coordinate],
     rows: usize,
-    /// The last point: slopes are asked for where a step led.
+    /// The last point: slopes are computed where a step ended.
     last: Mutex<Point>,
     /// Slopes by differences, until they have served the next point.
     known: Mutex<Option<(Point, DMatrix<f64>)>>,
@@ -68,7 +68,7 @@ impl<'r, 'a> ProjectedResidual<'r, 'a> {
         if last.u.as_slice() == u {
             return last;
         }
-        // What acts before the effect that is moved stays as it is.
+        // Effects before the one that is varied are reused.
         keep_inputs(self.problem, &put(self.state, self.coordinates, u));
         let point = Point { u: DVector::from_column_slice(u), residual: self.residual(u) };
         lock(&self.last).clone_from(&point);
@@ -120,7 +120,7 @@ impl Residuals for ProjectedResidual<'_, '_> {
     }
 }
 
-/// Returns slopes J at one point as the step to another changes them; see the head of this file.
+/// Returns slopes J updated by the step to another point; see the head of this file.
 fn updated(before: &Point, mut slopes: DMatrix<f64>, now: &Point) -> DMatrix<f64> {
     let step = &now.u - &before.u;
     let missed = &now.residual - &before.residual - &slopes * &step;

@@ -1,7 +1,7 @@
-//! What the actuators did before a trial, told by the trial.
+//! Actuator history of a trial, estimated from the trial.
 //!
-//! It is not recorded. It is a value of each actuator, told by what it leaves of the trial: where n ln(S₀/S) exceeds ln n for each, of n
-//! samples and sums of squares S₀ without it and S with it. Schwarz (1978), Annals of Statistics 6(2).
+//! The history is one value of each actuator. It is accepted where n ln(S₀/S) exceeds ln n for each value, with n samples and residual
+//! sums of squares S₀ without it and S with it. Schwarz (1978), Annals of Statistics 6(2).
 
 use std::ops::Range;
 
@@ -17,38 +17,38 @@ use crate::fit::problem::Problem;
 use crate::fit::state::State;
 use crate::series::before::Before;
 
-/// Form of what is sought, of a value of each actuator.
+/// Form of a history with a value of each actuator.
 pub type Form = fn(Vec<f64>) -> Before;
 
-/// Samples of one trial that tell what was before it.
+/// Samples of one trial for estimating its history.
 pub struct Past<'a> {
     /// Model with effects.
     pub model: &'a AugmentedModel,
     /// Signals from the first sample on.
     pub record: &'a Record,
-    /// Whether the record has the samples ahead of the jumps of held actuators.
+    /// Whether the record has inter-sample values of actuators.
     pub is_held: bool,
-    /// Rows of the record that tell.
+    /// Rows of the record in use.
     pub rows: Vec<usize>,
     /// What was measured at these rows, [N×M].
     pub measured: DMatrix<f64>,
     /// Weight of each output.
     pub weight: &'a [f64],
-    /// What fades after the first of them and is taken out, L⁻¹Hᵀ of [`projection`].
+    /// Projection L⁻¹Hᵀ that removes decaying modes ([`projection`]).
     pub forgotten: Option<DMatrix<f64>>,
 }
 
-/// Steps by which slopes are found, as a share of an actuator's range.
+/// Finite-difference step, as a share of an actuator's range.
 const STEP: f64 = 1e-3;
 
 /// Most iterations.
 const ITERATIONS: usize = 20;
 
-/// Places that are looked at first, in ranges from the middle of the recorded one.
+/// Initial values, in ranges from the middle of the recorded one.
 const PLACES: [f64; 6] = [-1.5, -0.5, -0.25, 0.25, 0.5, 1.5];
 
 impl Past<'_> {
-    /// Returns what leaves least, with values within a range beyond the recorded one.
+    /// Returns the best history, with values within a range beyond the recorded one.
     pub fn best(&self, form: Form) -> Before {
         let actuators = &self.model.rig().actuators;
         let (lower, upper) = actuators.iter().map(|q| (q.low - q.span(), q.high + q.span())).unzip();
@@ -68,12 +68,12 @@ impl Past<'_> {
         form(minimiser(&Sought { past: self, form }, &start, &Bounds { lower, upper }, &options))
     }
 
-    /// Returns the sum of squares behind it.
+    /// Returns the sum of squares with a history.
     pub fn left_behind(&self, before: &Before) -> f64 {
         self.residual_behind(before).norm_squared()
     }
 
-    /// Returns the sum of squares from the first sample on.
+    /// Returns the sum of squares without a history.
     pub fn left(&self) -> f64 {
         self.residual(&self.predicted(self.record), 0).norm_squared()
     }
@@ -86,7 +86,7 @@ impl Past<'_> {
         if self.is_held { self.model.predict_between(record, None) } else { self.model.predict(record, None) }
     }
 
-    /// Returns what a prediction leaves, weighted [N×M]; its rows lie `more` further down.
+    /// Returns the residual of a prediction, weighted [N×M]; `more` is the offset of its rows.
     fn residual(&self, predicted: &DMatrix<f64>, more: usize) -> DMatrix<f64> {
         let left = DMatrix::from_fn(self.rows.len(), self.weight.len(), |k, o| {
             let left = self.weight[o] * (self.measured[(k, o)] - predicted[(self.rows[k] + more, o)]);
@@ -99,7 +99,7 @@ impl Past<'_> {
     }
 }
 
-/// Values that are sought.
+/// Fit of a history.
 struct Sought<'a> {
     past: &'a Past<'a>,
     form: Form,
@@ -137,11 +137,11 @@ impl Residuals for Sought<'_> {
     }
 }
 
-/// Most samples of a trial that tell; a fit looks at as many together.
+/// Largest number of samples of a trial that are used.
 const TOLD: usize = 400;
 
-/// Returns the samples of trial `s` of `plain` that tell what was before it; none where something recorded was, or a prediction came with
-/// the data.
+/// Returns the samples of trial `s` of `plain` for estimating its history; none where a lead was recorded, or a prediction came with the
+/// data.
 fn past<'a>(plain: &'a Problem, state: &State, model: &'a AugmentedModel, s: usize) -> Option<Past<'a>> {
     let (series, kept, width) = (&plain.series[s], &plain.kept[s], plain.outputs());
     if series.rows.first() != Some(&0) || series.predicted.is_some() || kept.is_empty() {
@@ -160,8 +160,8 @@ fn past<'a>(plain: &'a Problem, state: &State, model: &'a AugmentedModel, s: usi
     })
 }
 
-/// Returns what the actuators did before each trial of `plain`, where a model that was fitted to these trials prefers that to beginning at
-/// the first sample; none where it does in no trial.
+/// Returns the history of each trial of `plain` where a model fitted to these trials prefers one to a start at the first sample; none
+/// where no trial has one.
 pub fn histories(plain: &Problem, state: &State, model: &AugmentedModel) -> Option<Vec<Option<Before>>> {
     let of = |s: usize| -> Option<Before> {
         let past = past(plain, state, model, s)?;
@@ -169,7 +169,7 @@ pub fn histories(plain: &Problem, state: &State, model: &AugmentedModel) -> Opti
         let [turn, rest] = forms.map(|form| past.best(form)).map(|before| (past.left_behind(&before), before));
         let samples = past.rows.len() as f64;
         let prefers = |from: f64, to: f64, values: usize| samples * (from / to).ln() > values as f64 * samples.ln();
-        // Lags, too, begin at a rest: that has to show.
+        // A rest also moves the start of lags: it must show.
         let (least, before) = if prefers(turn.0, rest.0, 1) { rest } else { turn };
         prefers(past.left(), least, before.values().len()).then_some(before)
     };
@@ -177,8 +177,7 @@ pub fn histories(plain: &Problem, state: &State, model: &AugmentedModel) -> Opti
     histories.iter().any(Option::is_some).then_some(histories)
 }
 
-/// Returns what the actuators did before most trials, of those that were found the one that all trials together prefer; none where most
-/// trials begin at their first sample.
+/// Returns the history that all trials together prefer, of those that were found; none where most trials start at their first sample.
 pub fn common(plain: &Problem, state: &State, model: &AugmentedModel, histories: &[Option<Before>]) -> Option<Before> {
     let known: Vec<&Before> = histories.iter().flatten().collect();
     if 2 * known.len() <= histories.len() {

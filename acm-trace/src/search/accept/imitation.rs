@@ -1,5 +1,4 @@
-//! Candidates that stand for something else: for a misfit of the nominal form, for noise of encoders, or for an effect that another takes
-//! back.
+//! Candidates that imitate something else: a misfit of the nominal form, encoder noise, or an effect that another cancels.
 
 use acm_core::effects::Carrier;
 
@@ -26,8 +25,8 @@ impl Search<'_, '_> {
         })
     }
 
-    /// Returns whether a static effect predicts no better than a static map with more freedom: then it stands for a
-    /// misfit of the nominal form. An effect without a shape, such as gravity at a joint, cannot imitate that.
+    /// Returns whether a static effect predicts no better than a static map with more freedom: then it imitates a misfit of the nominal
+    /// form. An effect without a shape, such as gravity at a joint, cannot imitate that.
     pub(super) fn is_static_misfit(&mut self, state: &State, candidate: &Tried) -> bool {
         let can_bend = |new: &Placed| is_function_of_actuators(new) && has_shape(new);
         if !added(state, &candidate.state).is_some_and(can_bend) {
@@ -37,13 +36,13 @@ impl Search<'_, '_> {
         candidate.score >= self.score_of(map, state)
     }
 
-    /// Returns whether the first effect stands for a misfit of the nominal form.
+    /// Returns whether the first effect imitates a misfit of the nominal form.
     pub(super) fn is_nominal_misfit(&mut self, state: &State, losses: &Losses, candidate: &Tried) -> bool {
         state.effects.is_empty() && self.helps_only_without_map(state, losses, &candidate.state)
     }
 
-    /// Returns whether a set helps no more than a smaller one where both are beside a static map with more freedom, and
-    /// that map helps the smaller one: then the difference stands for a misfit of the nominal form.
+    /// Returns whether a more flexible static map improves a smaller set, and a larger set predicts no better where both have it: then
+    /// the difference imitates a misfit of the nominal form.
     pub(in crate::search) fn helps_only_without_map(
         &mut self,
         smaller: &State,
@@ -64,8 +63,7 @@ impl Search<'_, '_> {
         *self.rivals.entry(key(state, problem)).or_insert_with(|| nuisance::most_flexible(problem, state))
     }
 
-    /// Returns whether a state predicts as well with smoother actuators as with the candidate: then the candidate
-    /// stands for noise of encoders.
+    /// Returns whether a state predicts as well with smoother actuators as with the candidate: then the candidate imitates encoder noise.
     pub(super) fn is_noise_of_encoders(&mut self, state: &State, candidate: &Tried) -> bool {
         let problem = self.problem;
         let loss = *self.smoothed.entry(key(state, problem)).or_insert_with(|| smoothed::smallest_loss(problem, state));
@@ -80,7 +78,7 @@ fn is_function_of_actuators(placed: &Placed) -> bool {
     traits.is_static && !traits.is_carried && !on_context && instance.context().is_none()
 }
 
-/// Returns whether a parameter is free in which the outputs are not linear.
+/// Returns whether the outputs are nonlinear in a free parameter.
 fn has_shape(placed: &Placed) -> bool {
     placed.instance.parameters().iter().any(|spec| spec.is_free() && !spec.linear)
 }
@@ -130,8 +128,8 @@ mod tests {
         }
     }
 
-    /// Oracle: of y = T₆(q) + d/2, with Chebyshev's polynomial, the signal c = T₆(q) tells nothing that a map of degree 10 does
-    /// not; d is needed beside the map too.
+    /// Oracle: of y = T₆(q) + d/2, with Chebyshev's polynomial, the signal c = T₆(q) adds nothing to a map of degree 10; d is needed
+    /// beside the map too.
     #[test]
     fn what_a_more_flexible_map_takes_up_is_no_effect() {
         let rig = bench::rig(&["q"], &["c", "d"], &["y"]);

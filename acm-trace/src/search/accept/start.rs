@@ -1,8 +1,8 @@
-//! What an unknown start of each trial explains by itself, which is no gain of an effect.
+//! Part that an unknown initial state of each trial explains, which is no gain of an effect.
 //!
-//! An effect with a memory has a state at the start of a trial that nothing recorded tells, and that is taken out of the trial
-//! ([`unrecorded`](crate::fit::unrecorded)). What is slow, such as a drift of the measurement, looks much like a start that fades. So sets are
-//! compared with the same start forgiven to both.
+//! An effect with memory has an unknown state at the start of a trial, which is projected out ([`unrecorded`](crate::fit::unrecorded)).
+//! Slow residuals, such as a drift of the measurement, look much like its decay. So sets are compared with the same modes projected out
+//! for both.
 
 use acm_core::effects::Mode;
 
@@ -11,8 +11,7 @@ use crate::search::scan::{Losses, cross_validate, sum};
 use crate::search::scored::Search;
 
 impl Search<'_, '_> {
-    /// Returns the losses of a state, with as long a time forgiven at the start of each trial as the candidate's memory
-    /// takes, where that is less.
+    /// Returns the losses of a state with the candidate's modes projected out of each trial as well, where these are lower.
     pub(in crate::search) fn forgiven(&self, state: &State, losses: &Losses, candidate: &State) -> Losses {
         let (theirs, own) = (modes(candidate), modes(state));
         let is_longer = |(their, own): (&Mode, Option<&Mode>)| own.is_none_or(|own| their.memory > own.memory);
@@ -24,8 +23,7 @@ impl Search<'_, '_> {
         forgiven.filter(|forgiven| sum(forgiven) < sum(losses)).unwrap_or_else(|| losses.clone())
     }
 
-    /// Returns the losses of another set as they compare with those of `own`: both forgive the start of each trial as long as the longer
-    /// of their memories lasts.
+    /// Returns the losses of another set, comparable with those of `own`: modes are projected out alike for both.
     pub(in crate::search) fn on_equal_terms(&self, own: (&State, &Losses), other: (&State, &Losses)) -> Losses {
         let own_alike = self.forgiven(own.0, own.1, other.0);
         let alike = self.forgiven(other.0, other.1, own.0);
@@ -53,8 +51,8 @@ mod tests {
         [bench::series(Record::new(bench::time(), vec![q], vec![], vec![]), y)]
     }
 
-    /// Oracle: y is q but for a state that fades in half a second. A candidate that remembers so long has it forgiven, and what it is
-    /// compared with too; one without a memory that fades has not. Creep of no size equals the set without it on equal terms.
+    /// Oracle: y is q but for a state that decays in half a second. It is projected out for a candidate with that memory and for the set
+    /// it is compared with, not for one without. Creep of size zero equals the set without it on equal terms.
     #[test]
     fn what_a_candidate_is_forgiven_is_forgiven_without_it_too() {
         let (rig, series, criteria) = (bench::rig(&["q"], &[], &["y"]), series(), Criteria::default());

@@ -40,8 +40,8 @@ impl Candidate {
         move |k: usize| ((k / each) as f64 + 0.5 - at).abs() <= NEXT
     }
 
-    /// Returns some of the states, spread over all: enough to test whether any of them is promising. Of a vibration that adds to the outputs
-    /// all are, since its valley is as narrow as its resonance.
+    /// Returns some of the states, spread over all: enough to test whether any of them is promising. A vibration that adds to the outputs
+    /// keeps all, since its valley is as narrow as its resonance.
     pub fn coarse(&self) -> impl Iterator<Item = usize> + use<> {
         let few = if adds_vibration(&self.label) { self.states.len() } else { COARSE };
         (0..self.states.len()).step_by(self.states.len().div_ceil(few.max(1)).max(1))
@@ -79,7 +79,7 @@ pub fn candidate(problem: &Problem, state: &State, new: &Instance, guesses: Vec<
         }
     }
     let base = curved(problem, state, new);
-    // Whether it acts in the calibration trials too is asked of the best candidates; without it their columns stay as they are.
+    // Only the best candidates are tested in the calibration trials too, whose columns stay as they are until then.
     let in_calibration = !problem.has_calibration();
     let placed = |guess: &Vec<f64>| Placed { instance: new.clone(), theta: guess.clone(), in_calibration };
     let states = distinct.iter().map(|guess| base.with(placed(guess))).collect();
@@ -98,11 +98,11 @@ fn curved(problem: &Problem, state: &State, new: &Instance) -> State {
     if part(new) == Part::Input { sloped(problem, state) } else { state.clone() }
 }
 
-/// Degree of the map that a first effect with a memory is also tried below.
+/// Degree of the map with which a first effect with memory is also tried.
 const BENT: usize = 4;
 
 /// Returns the state with a map of degree [`BENT`] where an effect with a memory is the first one on the inputs. A map of a filtered
-/// input, such as a sensor of the absolute value, may leave nothing to a straight line.
+/// input, such as a sensor of the absolute value, may have no linear part.
 fn bent(problem: &Problem, state: &State, new: &Instance) -> Option<State> {
     let lasts =
         |new: &Instance| new.initial_guesses(problem.rig).first().is_some_and(|guess| new.memory(guess).is_some());

@@ -10,7 +10,7 @@ use super::candidate::{Candidate, candidate};
 use crate::fit::problem::Problem;
 use crate::fit::state::{Placed, State};
 
-/// Distance from the neutral values at which an effect begins beside the simpler one that it refines, in scales.
+/// Distance from the neutral values at which a refinement starts beside the simpler effect, in scales.
 const BESIDE: f64 = 0.005;
 
 /// Returns the effects that take the place of effect `i` of a state with more parameters.
@@ -24,8 +24,8 @@ pub fn refinements(problem: &Problem, state: &State, i: usize, library: &[Instan
     library.iter().filter(refines).flat_map(|new| in_place_of(problem, state, i, new)).collect()
 }
 
-/// Returns the states with a simpler effect in the place of effect `i`, at the same values, and its name: first the effect that it refines,
-/// then those that refine the same and have some of its parameters only.
+/// Returns the states with a simpler effect in the place of effect `i`, at the same values, and its name: first the effect that it
+/// refines, then those that refine the same with fewer parameters.
 pub fn plainer(state: &State, i: usize, library: &[Instance]) -> Vec<(String, State)> {
     let old = &state.effects[i];
     let Some(simple) = old.instance.effect().traits().refines else { return vec![] };
@@ -49,7 +49,7 @@ pub fn plainer(state: &State, i: usize, library: &[Instance]) -> Vec<(String, St
     simplest.chain(beside().filter(|one| is_relative(one))).map(with).collect()
 }
 
-/// Bows of a value from its line over a signal at first, as a share of the value in the middle.
+/// Initial bows of a value from its line over a signal, as a share of the value in the middle.
 const BOWS: [f64; 2] = [-0.2, 0.2];
 
 /// Returns the state with a bow in the line of the values of effect `i` over a signal; none where there is no line, or one already.
@@ -68,8 +68,8 @@ pub(super) fn bowed(problem: &Problem, state: &State, i: usize) -> Option<Vec<Ca
     Some(candidate(problem, &state.without(i), &instance, shares.into_iter().map(with).collect()))
 }
 
-/// Returns the state with effect `i` in a plainer dependence on a signal: straight instead of bowed, or constant, as it is in the middle of
-/// the signal's range; none where it depends on no signal.
+/// Returns the state with a simpler dependence of effect `i` on a signal: linear instead of bowed, or constant, as in the middle of the
+/// signal's range; none where it depends on no signal.
 pub fn steadied(problem: &Problem, state: &State, i: usize, library: &[Instance]) -> Option<State> {
     let old = &state.effects[i];
     let signal = old.instance.context()?.signal(problem.rig)?;
@@ -112,8 +112,8 @@ pub fn behind_map(problem: &Problem, state: &State, i: usize, library: &[Instanc
     in_place_of(problem, state, i, new).into_iter().flat_map(|candidate| candidate.states).next()
 }
 
-/// Returns the state with an oscillator of the actuators as a vibration that adds to the outputs, beside another one: of several resonances
-/// none is passed by the whole motion.
+/// Returns the state with an oscillator of the actuators as a vibration that adds to the outputs, beside another one: with several
+/// resonances, none filters the whole motion.
 pub(super) fn as_vibration(problem: &Problem, state: &State, i: usize, library: &[Instance]) -> Vec<Candidate> {
     let old = &state.effects[i].instance;
     let is_vibration = |one: &Instance| one.effect().name() == VIBRATION;
@@ -157,7 +157,7 @@ pub(super) fn in_place_of(problem: &Problem, state: &State, i: usize, new: &Inst
             .for_each(|(own, spec)| *own = simple.value(&spec.name).map_or(*own, |known| spec.inside(known)));
         guess
     };
-    // Beside its neutral values it is the simpler effect, and cannot predict worse.
+    // Near its neutral values it is the simpler effect, and cannot predict worse.
     let beside = |share: f64| -> Vec<f64> {
         new.parameters().iter().map(|spec| spec.inside(spec.neutral + share * spec.scale)).collect()
     };
@@ -166,7 +166,7 @@ pub(super) fn in_place_of(problem: &Problem, state: &State, i: usize, new: &Inst
     candidate(problem, &state.without(i), new, guesses)
 }
 
-/// Factors by which the values of one actuator differ from those of the others at first.
+/// Initial ratios of the values of one actuator to those of the others.
 const APART: [f64; 2] = [0.5, 2.0];
 
 /// Returns the state with an effect of the rig as a whole replaced by one of each actuator, such as the lags of servos that differ; none
@@ -252,7 +252,7 @@ pub fn merged(problem: &Problem, state: &State, library: &[Instance]) -> Vec<(St
     pairs.filter_map(|(i, j)| delayed(i, j)).collect()
 }
 
-/// What a linear filter of the actuators is late by to first order, s; none where the effect is none.
+/// First-order delay of a linear filter of the actuators, s; none for other effects.
 fn late(placed: &Placed) -> Option<f64> {
     match placed.instance.effect().name() {
         LAG => placed.value("tau"),

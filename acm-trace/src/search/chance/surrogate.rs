@@ -1,5 +1,4 @@
-//! Surrogates, for the gain of the best of all candidates where no effect acts: residuals with their phases drawn at
-//! random.
+//! Surrogates for the largest gain of any candidate where no effect acts: residuals with random phases.
 //!
 //! ```text
 //! y* = fit of the smaller model + e*,   |ê*(f)| = |ê(f)|, phases uniform and the same for all outputs

@@ -42,9 +42,9 @@ pub fn resampled(search: &Search, competing: &[Competing]) -> Vec<(String, f64)>
     all
 }
 
-/// Returns the candidates whose mean loss is within one paired standard error of the best, or so little above it that
-/// the search would not exchange one for the other. A refinement of another effect is an equal only where that one is, too: else its
-/// further parameters make it one.
+/// Returns the candidates whose mean loss is within one paired standard error of the best, or so little above it that the search would not
+/// exchange one for the other. A refinement is an equal only where the simpler effect is, too: else only its further parameters make it
+/// one.
 pub fn equal(competing: &[Competing]) -> Vec<usize> {
     let total = |losses: &Losses| losses.iter().sum::<f64>();
     let Some(best) = competing.iter().min_by(|a, b| total(a.1).total_cmp(&total(b.1))) else { return vec![] };

@@ -1,5 +1,5 @@
-//! Pairs of effects of which the first alone is not proven: what another cause leaves is chance to it, or a static map imitates it. Beside a
-//! second effect both are tested again.
+//! Pairs of effects whose first is not proven alone: another cause masks it, or a static map imitates it. Beside a second effect both are
+//! tested again.
 
 use crate::search::accept::{least_t, paired_t};
 use crate::search::candidates::new_in;
@@ -7,8 +7,8 @@ use crate::search::scored::{Search, Unproven};
 use crate::search::tried::Tried;
 
 impl Search<'_, '_> {
-    /// Returns whether an effect is no chance beside a second, and no misfit of the nominal form: both together gain over blocks, it gains
-    /// more than the best candidate does by chance where both are, and a static map beside the second predicts worse.
+    /// Returns whether an effect beside a second is neither chance nor a misfit of the nominal form: both together gain over blocks, it
+    /// gains more than the best candidate does by chance where both are, and a static map beside the second predicts worse.
     pub(super) fn proves(&mut self, first: &Unproven, both: &Tried) -> bool {
         let together = paired_t(&first.losses, &both.losses);
         together > least_t(first.losses.len(), self.criteria.level)

@@ -1,15 +1,15 @@
 //! Minor effects: they predict better beside the effects that are named, by too little to be named themselves.
 //!
-//! A small cause is often too small, or too like others, for a claim; without it the named effects take over what they can of it,
-//! and the model predicts worse than the data allow. Minor effects pass every test of [`accept`](crate::search::accept) at a share of the
-//! price, and are in the model that is saved.
+//! A small cause is often too small, or too similar to others, for a claim; without it the named effects absorb part of it, and the model
+//! predicts worse than the data allow. Minor effects pass every test of [`accept`](crate::search::accept) at a share of the price, and are
+//! part of the saved model.
 
 use crate::search::accept::Tested;
 use crate::search::criteria::Criteria;
 use crate::search::scored::{Scored, Search, Trials};
 use crate::search::select::{Selected, possible};
 
-/// Number of candidates that are refined: more than for a name, since what is small is far down among them.
+/// Number of candidates that are refined: more than for named effects, since small effects rank low.
 const REFINED: usize = 25;
 
 impl Search<'_, '_> {
