@@ -11,7 +11,7 @@
 //! | `φ` | a term of [`crate::diagnose::library`] | SI |
 //! | `a` | coefficient | SI |
 //!
-//! Terms are added one by one: the dozen that reduce ‖r‖² most are scored on blocks left out, and of those that score
+//! Terms are added one by one: the 16 that reduce ‖r‖² most are scored on blocks left out, and of those that score
 //! alike the simplest is taken; a term on an actuator moves all outputs at once and counts as simpler. Directions that
 //! calibration absorbs can be taken out of r and of every term beforehand. Chen, Billings & Luo (1989), Int. J.
 //! Control 50(5) (orthogonal least squares); Brunton, Proctor & Kutz (2016), PNAS 113(15) (sparse formulas).

@@ -1,6 +1,6 @@
 //! Blocks of rows: units of the resampling, and the folds that are left out together.
 //!
-//! Three trials or more are left out whole, in at most eight folds. One or two records are cut into 20 to 24 regions of time,
+//! Three trials or more are left out whole, in at most eight folds. One or two records are cut into 24 regions of time,
 //! left out in five interleaved folds. Chu & Marron (1991), Annals of Statistics 19(4).
 
 use std::ops::Range;

@@ -229,11 +229,11 @@ mod tests {
         for first in all {
             let state = State::bare(Form::LINEAR).with(of(first));
             let found = candidates(&problem, &state, &library, false);
+            let named =
+                |state: &State, name: &str| state.effects.iter().any(|placed| placed.instance.effect().name() == name);
             let goes_with = |name: &str| {
-                let names = |state: &State| -> Vec<&str> {
-                    state.effects.iter().map(|placed| placed.instance.effect().name()).collect()
-                };
-                found.iter().flat_map(|one| &one.states).any(|state| names(state) == [first, name])
+                let mut states = found.iter().flat_map(|one| &one.states);
+                states.any(|state| named(state, first) && named(state, name))
             };
             for other in all.into_iter().filter(|other| *other != first) {
                 assert!(goes_with(other), "{other} beside {first}");
