@@ -66,7 +66,7 @@ impl Steps {
         let error = self.shown(step.error);
         let gain = step.gain.map_or(String::new(), |gain| format!(", gain {}", percent(gain)));
         let chance = step.by_chance.map_or(String::new(), |chance| format!(" (by chance {})", percent(chance)));
-        let sure = step.significance.map_or(String::new(), |t| format!(", {t:.1} standard errors"));
+        let sure = step.significance.map_or(String::new(), |t| format!(", {t:.1} standard errors").replace('-', "−"));
         let rejected = if step.accepted { "" } else { ", rejected" };
         format!("{:<42} {error:>12}{gain}{chance}{sure}{rejected}", step.model)
     }
