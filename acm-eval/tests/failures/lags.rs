@@ -1,7 +1,7 @@
 //! Class 3: the static map is fitted again with each candidate.
 
 use crate::closed::{Closed, close};
-use crate::motion::{Motion, Random, clock, lag, solve};
+use crate::motion::{Motion, Random, clock, lag, oscillator};
 use crate::rig::{Rig, Trial, noisy, parts};
 
 const NOISE: f64 = 0.005;
@@ -40,18 +40,16 @@ fn a_lag_slower_than_the_motion_is_found_with_its_time() {
     }
 }
 
-/// An oscillator behind the same map: y = x + a x³, ẍ = ω² (q − x) − 2 ζ ω ẋ.
+/// An oscillator behind the same map.
 #[test]
 fn an_oscillator_behind_a_static_map_is_found_with_its_period() {
     let (period, damping) = (2.5, 0.4);
-    let w = std::f64::consts::TAU / period;
     let time = clock(400, 0.1);
     let trial = |(part, k): (char, usize)| {
         let mut random = Random::new(441 + k as u64);
         let q = Motion::new(&mut random, 1.0, 4, [20.0, 5.0]);
-        let slope = |t: f64, [x, v]: [f64; 2]| [v, w * w * (q.at(t) - x) - 2.0 * damping * w * v];
-        let x = solve(&time, [q.at(0.0), 0.0], slope).into_iter().map(|[x, _]| x);
-        let y = noisy(&mut random, NOISE, x.map(|x| x + 0.2 * x.powi(3)));
+        let x = oscillator(&time, period, damping, |t| q.at(t));
+        let y = noisy(&mut random, NOISE, x.iter().map(|x| x + 0.2 * x.powi(3)));
         Trial::new(part, k, &time, vec![q.sampled(&time), y])
     };
     let closed = close(&Rig::one_to_one("V", "m", parts(4, 2).map(trial).collect()), &[]);

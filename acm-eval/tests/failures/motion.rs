@@ -112,3 +112,10 @@ pub fn solve<const N: usize>(time: &[f64], x0: [f64; N], slope: impl Fn(f64, [f6
 pub fn lag(time: &[f64], tau: f64, u: impl Fn(f64) -> f64) -> Vec<f64> {
     solve(time, [u(time[0])], |t, [x]| [(u(t) - x) / tau]).into_iter().map(|[x]| x).collect()
 }
+
+/// Oscillator, `ẍ = ω² (u − x) − 2 ζ ω ẋ`, that begins at rest.
+pub fn oscillator(time: &[f64], period: f64, damping: f64, u: impl Fn(f64) -> f64) -> Vec<f64> {
+    let w = std::f64::consts::TAU / period;
+    let slope = |t: f64, [x, v]: [f64; 2]| [v, w * w * (u(t) - x) - 2.0 * damping * w * v];
+    solve(time, [u(time[0]), 0.0], slope).into_iter().map(|[x, _]| x).collect()
+}

@@ -1,9 +1,7 @@
 //! Class 4: times from the sampling step to a third of a trial, whatever the unit of the plant is.
 
-use std::f64::consts::TAU;
-
 use crate::closed::{Closed, close};
-use crate::motion::{Motion, Random, clock, lag, solve};
+use crate::motion::{Motion, Random, clock, lag, oscillator};
 use crate::rig::{Rig, Trial, noisy, parts};
 
 const NOISE: f64 = 0.01;
@@ -34,7 +32,7 @@ fn a_lag_of_two_minutes_has_its_time() {
 #[test]
 fn a_resonance_of_a_minute_has_its_period() {
     let (period, damping) = (60.0, 0.15);
-    let closed = closed(61, 2.0, [600.0, 50.0], |time, q| oscillator(time, q, period, damping));
+    let closed = closed(61, 2.0, [600.0, 50.0], |time, q| oscillator(time, period, damping, |t| q.at(t)));
     assert!(closed.has(&["second_order_lag"]), "{closed}");
     assert!(closed.parameter("second_order_lag", "period").is_within(0.03, period), "{closed}");
     assert!(closed.after() < 1.2 * NOISE, "{closed}");
@@ -44,15 +42,8 @@ fn a_resonance_of_a_minute_has_its_period() {
 #[test]
 fn a_resonance_of_ten_milliseconds_has_its_period() {
     let (period, damping) = (0.010, 0.15);
-    let closed = closed(71, 4e-4, [0.1, 0.008], |time, q| oscillator(time, q, period, damping));
+    let closed = closed(71, 4e-4, [0.1, 0.008], |time, q| oscillator(time, period, damping, |t| q.at(t)));
     assert!(closed.has(&["second_order_lag"]), "{closed}");
     assert!(closed.parameter("second_order_lag", "period").is_within(0.03, period), "{closed}");
     assert!(closed.after() < 1.2 * NOISE, "{closed}");
-}
-
-/// ẍ = ω² (q − x) − 2 ζ ω ẋ, at rest where it begins.
-fn oscillator(time: &[f64], q: &Motion, period: f64, damping: f64) -> Vec<f64> {
-    let w = TAU / period;
-    let slope = |t: f64, [x, v]: [f64; 2]| [v, w * w * (q.at(t) - x) - 2.0 * damping * w * v];
-    solve(time, [q.at(0.0), 0.0], slope).into_iter().map(|[x, _]| x).collect()
 }

@@ -22,9 +22,9 @@ pub fn parameter_title(name: &str) -> String {
     let own = match own.split_once('_') {
         Some(("tau", signal)) => format!("time constant of {signal}"),
         None if own == "tau" => "time constant".into(),
-        Some((word, rest)) => match rest.split_once('_').map_or((rest, None), |(first, more)| (first, Some(more))) {
-            (number, None) if is_number(number) => format!("{word} {number}"),
-            (number, Some(signal)) if is_number(number) => format!("{word} {number} of {signal}"),
+        Some((word, number)) if is_number(number) => format!("{word} {number}"),
+        Some((word, rest)) => match rest.split_once('_') {
+            Some((number, signal)) if is_number(number) => format!("{word} {number} of {signal}"),
             _ => format!("{word} of {rest}"),
         },
         None => own.into(),

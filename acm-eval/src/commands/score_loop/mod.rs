@@ -13,8 +13,8 @@ use acm_eval::question::criteria;
 use acm_eval::scoring::aliases::measure;
 use acm_eval::scoring::answer::Answer;
 use acm_eval::scoring::figures::{
-    Figures, RigScore, compared, pooled_table, rig_heading, rig_line, rig_table, several_heading, several_line,
-    several_table,
+    Figures, RigScore, SeveralRow, compared, pooled_table, rig_heading, rig_line, rig_table, several_heading,
+    several_line, several_table,
 };
 use acm_eval::scoring::kept::{self, Header, Kept};
 use acm_eval::scoring::single::{Score, heading, line, table};
@@ -29,6 +29,9 @@ use serde_json::{Value, json};
 pub use args::{EXAMPLES, ScoreArgs};
 use attempts::attempts;
 use results::{draw, keep, write};
+
+/// Largest number of trials that counts as few.
+const FEW_TRIALS: usize = 6;
 
 /// Prints a line as each campaign is done, then the table.
 pub fn run(args: &ScoreArgs) -> Result<(), EvalError> {
@@ -82,21 +85,24 @@ impl<'a> Asked<'a> {
         Ok(answers)
     }
 
-    /// Returns the campaigns of two to six causes: of each design, then of all.
+    /// Returns the campaigns of two to six causes: of each design, of few and of many trials, then of all.
     fn several(&self, many: u64) -> Result<Vec<Answer>, EvalError> {
         let tasks = several_tasks(self.args.seeds_of(), many, &self.args.designs());
         print(&several_heading())?;
         let rows = self.rows("several", &tasks, |task| attempt_several(task, &self.options), several_line)?;
         let answers: Vec<Answer> = rows.iter().map(|row| row.answer.clone()).collect();
-        let mut sets = vec![];
-        for design in self.args.designs() {
-            let own: Vec<Answer> =
-                rows.iter().filter(|row| row.design == design).map(|row| row.answer.clone()).collect();
-            sets.push((design.name().to_string(), Figures::new(&own)));
-        }
+        let of = |is: &dyn Fn(&SeveralRow) -> bool| {
+            let own: Vec<Answer> = rows.iter().filter(|row| is(row)).map(|row| row.answer.clone()).collect();
+            Figures::new(&own)
+        };
+        let designs = self.args.designs();
+        let mut sets: Vec<(String, Figures)> =
+            designs.iter().map(|design| (design.name().to_string(), of(&|row| row.design == *design))).collect();
+        sets.push((format!("up to {FEW_TRIALS} trials"), of(&|row| row.trials <= FEW_TRIALS)));
+        sets.push(("more trials".into(), of(&|row| row.trials > FEW_TRIALS)));
         let figures = Figures::new(&answers);
         print(&format!("\n{}\n\n{}", compared(&sets, self.args.look()), several_table(&figures, self.args.look())))?;
-        self.keep("several.json", json!({ "figures": figures, "designs": sets, "rows": rows }))?;
+        self.keep("several.json", json!({ "figures": figures, "sets": sets, "rows": rows }))?;
         Ok(answers)
     }
 
