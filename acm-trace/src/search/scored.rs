@@ -58,6 +58,8 @@ pub struct Search<'p, 'a> {
     pub clock: bool,
     pub(crate) first: f64,
     pub(super) expanded: HashMap<Key, Expansion>,
+    /// Expansions of sets of the same effects, with J of each set.
+    pub(super) of_labels: HashMap<Vec<String>, Vec<(f64, Expansion)>>,
     pub(super) thresholds: HashMap<Key, f64>,
     pub(super) rivals: HashMap<Key, f64>,
     pub(super) smoothed: HashMap<Key, f64>,
@@ -78,7 +80,7 @@ impl<'p, 'a> Search<'p, 'a> {
         seed: u64,
         clock: bool,
     ) -> Self {
-        let (expanded, thresholds, rivals, smoothed, known, unproven) = Default::default();
+        let (expanded, of_labels, thresholds, rivals, smoothed, known, unproven) = Default::default();
         Self {
             problem,
             quick,
@@ -88,6 +90,7 @@ impl<'p, 'a> Search<'p, 'a> {
             clock,
             first: f64::NAN,
             expanded,
+            of_labels,
             thresholds,
             rivals,
             smoothed,

@@ -81,11 +81,11 @@ impl Search<'_, '_> {
         Selected { bare, bare_losses, settled: (settled.1, settled.2), last, last_losses }
     }
 
-    /// Returns a set that was found before with its values refined. Its effects are exchanged for others where J changes by a price or more.
+    /// Returns a set that was found before with its values refined. Its effects are exchanged for others where J falls by a price or more.
     fn found_again(&mut self, found: Found) -> Scored {
         let settled = self.settled(found.state);
         let change = found.losses.map(|losses| settled.0 - self.score(losses, found.state));
-        self.exchanges = change.is_none_or(|change| change.abs() >= self.criteria.price);
+        self.exchanges = change.is_none_or(|change| change <= -self.criteria.price);
         settled
     }
 

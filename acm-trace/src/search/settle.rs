@@ -135,7 +135,7 @@ impl Search<'_, '_> {
         let behind = (0..count).filter_map(|i| behind_map(self.problem, &without, i, self.library)).collect::<Vec<_>>();
         let starts = [Some(last.1.clone()), Some(without).filter(|_| count < last.1.effects.len())];
         let starts = starts.into_iter().flatten().chain(behind);
-        let tried: Vec<Scored> = starts.filter_map(|state| self.with_kinks(state)).collect();
+        let tried: Vec<Scored> = starts.filter_map(|state| self.with_kinks(state, last.0)).collect();
         let best = tried.into_iter().min_by(|a, b| a.0.total_cmp(&b.0))?;
         let is_better = !best.1.form.kinks.is_empty()
             && best.0 < last.0 - self.criteria.price
@@ -147,15 +147,15 @@ impl Search<'_, '_> {
         is_better.then_some(best)
     }
 
-    /// Returns a set with kinks, chosen again after refining the values.
-    fn with_kinks(&mut self, state: State) -> Option<Scored> {
-        let mut best: Option<Scored> = None;
-        for _ in 0..2 {
-            let from = best.as_ref().map_or(&state, |best| &best.1);
-            let (bent, _) = nuisance::bent(self.problem, from, self.criteria)?;
-            best = Some(self.settled(&bent));
+    /// Returns a set with kinks; where that lowers J they are chosen again after refining the values.
+    fn with_kinks(&mut self, state: State, before: f64) -> Option<Scored> {
+        let (first, _) = nuisance::bent(self.quick, &state, self.criteria)?;
+        let first = self.settled(&first);
+        if first.0 >= before {
+            return Some(first);
         }
-        best
+        let (again, _) = nuisance::bent(self.quick, &first.1, self.criteria)?;
+        Some(self.settled(&again))
     }
 
     /// Returns J of a candidate on equal terms with a set, where it may take that set's place: it costs less, or predicts significantly

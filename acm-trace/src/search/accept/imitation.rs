@@ -63,11 +63,16 @@ impl Search<'_, '_> {
         *self.rivals.entry(key(state, problem)).or_insert_with(|| nuisance::most_flexible(problem, state))
     }
 
-    /// Returns whether a state predicts as well with smoother actuators as with the candidate: then the candidate imitates encoder noise.
+    /// Returns whether a state predicts as well with smoother actuators as with the candidate, and the candidate adds nothing beside these: then
+    /// it imitates encoder noise.
     pub(super) fn is_noise_of_encoders(&mut self, state: &State, candidate: &Tried) -> bool {
         let problem = self.problem;
-        let loss = *self.smoothed.entry(key(state, problem)).or_insert_with(|| smoothed::smallest_loss(problem, state));
-        candidate.score >= self.score_of(loss, state)
+        let mut smooth = |state: &State| {
+            *self.smoothed.entry(key(state, problem)).or_insert_with(|| smoothed::smallest_loss(problem, state))
+        };
+        let (without, with) = (smooth(state), smooth(&candidate.state));
+        candidate.score >= self.score_of(without, state)
+            && self.score_of(with, &candidate.state) >= self.score_of(without, state)
     }
 }
 
@@ -151,5 +156,34 @@ mod tests {
             search.helps_only_without_map(&bare, &losses, &state)
         });
         assert_eq!(stands_for_misfit, [true, false]);
+    }
+
+    /// Oracle: y = q₀ + c/20, of which q = q₀ + n with noise n is recorded. A smoother q predicts better than the term of c, which adds its
+    /// part beside that too. A lag of q smooths n, and adds nothing to a smoother q.
+    #[test]
+    fn an_effect_beside_noise_of_encoders_is_no_noise() {
+        let rig = bench::rig(&["q"], &["c"], &["y"]);
+        let smooth: Vec<f64> = bench::time().iter().map(|t| (0.6 * t).sin()).collect();
+        let c: Vec<f64> = bench::time().iter().map(|t| (1.7 * t).cos()).collect();
+        let mut noise = bench::noise(0.3);
+        let q = smooth.iter().map(|q| q + noise()).collect();
+        let y = smooth.iter().zip(&c).map(|(q, c)| q + 0.05 * c).collect();
+        let series = [bench::series(Record::new(bench::time(), vec![q], vec![c], vec![]), y)];
+        let problem = Problem::new(&rig, &series, &[1.0], None);
+        let criteria = Criteria::default();
+        let mut search = Search::plain(&problem, &[], &criteria);
+        let bare = State::bare(Form::LINEAR);
+        search.first = sum(&cross_validate(&problem, &bare).unwrap());
+        let term = bench::placed("context_term", Carrier::Context(0), &rig, &[1.0]);
+        let lag = bench::placed("actuator_lag", Carrier::Rig, &rig, &[0.03]);
+        let found = [term, lag].map(|placed| {
+            let (label, state) = (placed.label(&rig), bare.with(placed));
+            let losses = cross_validate(&problem, &state).unwrap();
+            let score = search.score(&losses, &state);
+            assert!(score < search.score_of(search.first, &bare), "{label}");
+            let tried = Tried { label, state, score, scanned: score, losses, is_refined: true };
+            search.is_noise_of_encoders(&bare, &tried)
+        });
+        assert_eq!(found, [false, true]);
     }
 }
