@@ -9,7 +9,7 @@
 
 use std::fs::{File, OpenOptions};
 use std::hash::{DefaultHasher, Hasher};
-use std::io::{BufRead, BufReader, Read, Write};
+use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
@@ -84,7 +84,8 @@ impl<R: Serialize + DeserializeOwned + Clone> Kept<R> {
         if let Some(folder) = path.parent() {
             std::fs::create_dir_all(folder).map_err(|e| EvalError::write(folder, e))?;
         }
-        let lines = lines(path)?;
+        let text = text(path)?;
+        let lines = lines(&text);
         if let Some(first) = lines.first() {
             let found = serde_json::from_str::<Header>(first).ok();
             if found.as_ref() != Some(header) {
@@ -99,10 +100,11 @@ impl<R: Serialize + DeserializeOwned + Clone> Kept<R> {
         let known = rows.map(|line| (line.key, line.row)).collect();
         let file = OpenOptions::new().create(true).append(true).open(path).map_err(|e| EvalError::write(path, e))?;
         let kept = Self { file: Mutex::new(file), path: path.into(), known };
-        match lines.is_empty() {
-            true => kept.write(header)?,
+        if lines.is_empty() {
+            kept.write(header)?;
+        } else if !text.ends_with('\n') {
             // What was cut off ends here.
-            false => kept.write_text("\n")?,
+            kept.write_text("\n")?;
         }
         Ok(kept)
     }
@@ -131,15 +133,18 @@ impl<R: Serialize + DeserializeOwned + Clone> Kept<R> {
     }
 }
 
-/// Reads the lines of a file that are not empty; none where there is no file.
-fn lines(path: &Path) -> Result<Vec<String>, EvalError> {
-    let file = match File::open(path) {
-        Ok(file) => file,
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(vec![]),
-        Err(error) => return Err(EvalError::read(path, error)),
-    };
-    let all: Result<Vec<String>, _> = BufReader::new(file).lines().collect();
-    Ok(all.map_err(|error| EvalError::read(path, error))?.into_iter().filter(|line| !line.trim().is_empty()).collect())
+/// Reads a file, which may end within a character; nothing where there is no file.
+fn text(path: &Path) -> Result<String, EvalError> {
+    match std::fs::read(path) {
+        Ok(bytes) => Ok(String::from_utf8_lossy(&bytes).into_owned()),
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(String::new()),
+        Err(error) => Err(EvalError::read(path, error)),
+    }
+}
+
+/// Returns the lines that are not empty.
+fn lines(text: &str) -> Vec<&str> {
+    text.lines().filter(|line| !line.trim().is_empty()).collect()
 }
 
 /// Reads the answers of all files of rows in a folder, in the order of their names.
@@ -157,8 +162,8 @@ pub fn answers(folder: &Path) -> Result<Vec<Answer>, EvalError> {
     files.sort();
     let mut all = Vec::new();
     for file in &files {
-        let rows = lines(file)?;
-        let rows = rows.iter().filter_map(|line| serde_json::from_str::<Line<Answered>>(line).ok());
+        let text = text(file)?;
+        let rows = lines(&text).into_iter().filter_map(|line| serde_json::from_str::<Line<Answered>>(line).ok());
         all.extend(rows.map(|line| line.row.answer));
     }
     if all.is_empty() {
@@ -182,7 +187,7 @@ mod tests {
         Key { seed, design: None, kind: "axis".into(), without_own: false }
     }
 
-    /// Oracle: what was written, after the last line was cut.
+    /// Oracle: what was written, after the last line was cut within a character; a file that is whole is not added to.
     #[test]
     fn a_file_goes_on_where_it_was_stopped() {
         let folder = tempfile::tempdir().expect("a folder");
@@ -193,11 +198,14 @@ mod tests {
         kept.add(key(1), &row).expect("it is written");
         kept.add(key(2), &row).expect("it is written");
         let text = std::fs::read_to_string(&path).expect("it is there");
-        std::fs::write(&path, &text[..text.len() - 20]).expect("it is cut");
+        let within_a_character = [&text.as_bytes()[..text.len() - 20], &"é".as_bytes()[..1]].concat();
+        std::fs::write(&path, within_a_character).expect("it is cut");
         let again = Kept::<Row>::open(&path, &header).expect("the same configuration");
         assert_eq!((again.row(&key(1)), again.row(&key(2))), (Some(row.clone()), None));
         again.add(key(2), &row).expect("it is written");
+        let whole = std::fs::read(&path).expect("it is there");
         assert_eq!(Kept::<Row>::open(&path, &header).expect("once more").row(&key(2)), Some(row.clone()));
+        assert_eq!(std::fs::read(&path).expect("it is there"), whole);
         assert_eq!(answers(folder.path()).expect("two rows"), [row.answer.clone(), row.answer]);
         let other = Header { configuration: serde_json::json!({ "samples": 200 }), ..header };
         assert!(Kept::<Row>::open(&path, &other).is_err(), "another configuration");
