@@ -111,8 +111,8 @@ impl Search<'_, '_> {
         better.sort_by(|a, b| a.score.total_cmp(&b.score));
         // The rest was only looked at to first order.
         tried.splice(..refined, better);
+        self.of_labels.entry(state.labels(self.problem.rig)).or_default().push((score, key.clone()));
         self.expanded.insert(key, tried.clone());
-        self.of_labels.entry(state.labels(self.problem.rig)).or_default().push((score, tried.clone()));
         tried
     }
 
@@ -120,7 +120,8 @@ impl Search<'_, '_> {
     fn known_expansion(&self, state: &State, score: f64) -> Option<Expansion> {
         let near = self.criteria.price * ALIKE;
         let known = self.of_labels.get(&state.labels(self.problem.rig))?;
-        known.iter().find(|(other, _)| (other - score).abs() < near).map(|(_, expansion)| expansion.clone())
+        let (_, key) = known.iter().find(|(other, _)| (other - score).abs() < near)?;
+        self.expanded.get(key).cloned()
     }
 
     fn tried(&self, candidate: &Candidate, scanned: Scanned) -> Tried {

@@ -58,8 +58,8 @@ pub struct Search<'p, 'a> {
     pub clock: bool,
     pub(crate) first: f64,
     pub(super) expanded: HashMap<Key, Expansion>,
-    /// Expansions of sets of the same effects, with J of each set.
-    pub(super) of_labels: HashMap<Vec<String>, Vec<(f64, Expansion)>>,
+    /// J and keys of the expanded sets of the same effects.
+    pub(super) of_labels: HashMap<Vec<String>, Vec<(f64, Key)>>,
     pub(super) thresholds: HashMap<Key, f64>,
     pub(super) rivals: HashMap<Key, f64>,
     pub(super) smoothed: HashMap<Key, f64>,
