@@ -27,7 +27,7 @@ impl Seeds {
     pub const fn first(self) -> u64 {
         match self {
             Seeds::Development => 14_001,
-            Seeds::Report => 36_001,
+            Seeds::Report => 37_001,
         }
     }
 
@@ -44,7 +44,7 @@ mod tests {
     #[test]
     fn lists_never_meet() {
         let [one, two] = [Seeds::Development, Seeds::Report].map(|list| list.take(u64::MAX).collect::<Vec<u64>>());
-        assert_eq!((one[0], two[0], one.len(), two.len()), (14_001, 36_001, 1000, 1000));
+        assert_eq!((one[0], two[0], one.len(), two.len()), (14_001, 37_001, 1000, 1000));
         assert!(one.iter().all(|seed| !two.contains(seed)));
         assert_eq!(Seeds::Development.take(3).collect::<Vec<u64>>(), [14_001, 14_002, 14_003]);
     }

@@ -30,7 +30,7 @@ Examples:
   acm-eval score-loop --first-seed 14007 --seeds 1 --design rich
       One line again. `acm-data generate --undeclared 14007` writes that campaign out.
 
-Seeds are those of one list: development (14001 on), with which rules may be chosen, or report (36001 on), for \
+Seeds are those of one list: development (14001 on), with which rules may be chosen, or report (37001 on), for \
 published figures only.
 
 With --out, each row is written when it is done, and the same command continues an interrupted run.
@@ -75,7 +75,7 @@ pub struct ScoreArgs {
     /// Instead: this many small rigs of each of seven kinds, beside an oracle fit of the true structure
     #[arg(long, value_name = "N", conflicts_with_all = ["kinds", "without_own", "nulls", "first_seed"])]
     pub small_rigs: Option<u64>,
-    /// Seeds of these: development (from 14001 on), or report (from 36001 on; not for choosing anything)
+    /// Seeds of these: development (from 14001 on), or report (from 37001 on; not for choosing anything)
     #[arg(long, value_enum, default_value_t = List::Development, value_name = "LIST")]
     pub seed_list: List,
     /// Change the search, such as search.samples=8000; may be repeated
