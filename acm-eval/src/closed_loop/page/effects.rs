@@ -34,8 +34,8 @@ pub fn section(finding: &Finding) -> Markup {
         } @else {
             (overview(finding))
             p.note {
-                "Intervals cover the true value in 95 % of cases, as far as these trials tell (jackknife over \
-                blocks). They hold if the effect is the right one."
+                "95 % intervals by a jackknife over blocks. They hold if the effect is the right one; in simulations \
+                with a known truth fewer than 95 % of them held it."
             }
         }
         @for effect in &finding.effects { (one(effect, &finding.errors.unit)) }

@@ -77,7 +77,7 @@ pub struct FoundParameter {
     pub value: f64,
     /// SI unit.
     pub unit: String,
-    /// Bounds that cover the true value in 95 % of cases: jackknife over blocks ([`crate::fit::interval`]).
+    /// 95 % interval, by a jackknife over blocks ([`crate::fit::interval`]).
     /// Infinite where nothing bounds the value; null in the file.
     #[serde(with = "crate::finding::records::open")]
     pub interval: [f64; 2],
