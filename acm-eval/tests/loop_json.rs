@@ -105,3 +105,36 @@ fn the_book_has_every_criterion_with_its_default() {
     assert!(fields.len() > 10);
     assert_eq!(rows, fields);
 }
+
+/// Numbers in a text, such as 3, 20 and 0.06 in "3 s, 20 samples, 0.06".
+fn numbers(text: &str) -> Vec<f64> {
+    let plain = text.replace(|c: char| !(c.is_ascii_alphanumeric() || "._-".contains(c)), " ").replace('_', "");
+    plain.split_whitespace().filter_map(|word| word.parse().ok()).collect()
+}
+
+/// Oracle: the sources, in which each constant is declared with the numbers that the book gives it.
+#[test]
+fn the_book_has_constants_with_their_files_and_values() {
+    let mut compared = 0;
+    for line in chapter("criteria.md").lines() {
+        let cells: Vec<&str> = line.split(" | ").map(|cell| cell.trim_start_matches("| ")).collect();
+        let Some(file) = cells.first().filter(|file| file.ends_with(".rs")) else { continue };
+        let (library, file) = file.split_once(' ').unwrap_or(("acm-trace", file));
+        let source = fs::read_to_string(Path::new("..").join(library).join("src").join(file))
+            .unwrap_or_else(|error| panic!("{file}: {error}"));
+        let declared: Vec<f64> = cells[1]
+            .split(", ")
+            .flat_map(|name| {
+                let name = name.trim_matches('`');
+                let (_, rest) =
+                    source.split_once(&format!("const {name}: ")).unwrap_or_else(|| panic!("{file}: {name}"));
+                let (_, value) = rest.split_once(" = ").unwrap();
+                numbers(value.split_once(";\n").unwrap().0)
+            })
+            .collect();
+        let told = numbers(&cells[2].replace(',', if cells[2].contains(", ") { " " } else { "" }));
+        assert!(!told.is_empty() && told.iter().all(|number| declared.contains(number)), "{line}\n{declared:?}");
+        compared += 1;
+    }
+    assert!(compared > 20);
+}
