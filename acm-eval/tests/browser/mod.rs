@@ -14,6 +14,24 @@ pub fn browser() -> Option<&'static str> {
     ["chromium", "chromium-browser", "google-chrome"].into_iter().find(works)
 }
 
+/// Refuses a page that loads anything: it can be mailed, archived and opened without a network.
+pub fn loads_nothing(name: &str, html: &str) {
+    for loading in [
+        "src=",
+        "<link",
+        "<script src",
+        "fetch(",
+        "XMLHttpRequest",
+        "@import",
+        "url(http",
+        "href=\"http",
+        "<image",
+        "<iframe",
+    ] {
+        assert!(!html.contains(loading), "{name} has {loading}");
+    }
+}
+
 /// How a reader's window is.
 #[derive(Clone, Copy)]
 pub struct Window {

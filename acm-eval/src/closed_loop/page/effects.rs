@@ -34,8 +34,8 @@ pub fn section(finding: &Finding) -> Markup {
         } @else {
             (overview(finding))
             p.note {
-                "95 % intervals by a jackknife over blocks. They hold if the effect is the right one; in simulations \
-                with a known truth fewer than 95 % of them held it."
+                "95 % intervals by a jackknife over blocks. They assume that the effect is the right one. In \
+                simulations, fewer than 95 % of them contained the true value."
             }
         }
         @for effect in &finding.effects { (one(effect, &finding.errors.unit)) }
