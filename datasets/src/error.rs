@@ -15,6 +15,7 @@ use std::path::{Path, PathBuf};
 
 pub use crate::text::rows::More;
 use crate::toml_file::TomlError;
+use crate::units::Unit;
 
 /// One problem of a data set, or all of them.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -132,20 +133,18 @@ pub enum DataError {
     TooFar { path: PathBuf, row: usize, column: String, value: f64, more: More },
 
     #[error(
-        "{path}, row {row}, column `{column}`: the cell is empty{more}; only measured and vehicle cells may be empty (a \
-         lost marker): fill it or delete the row"
+        "{path}, row {row}, column `{column}`: {what}{more}; only measured and vehicle cells may be empty (a \
+         lost marker): fill it or delete the row; for a signal that is sampled more slowly write fill = \"previous\" or \
+         \"linear\" below its `unit`"
     )]
-    EmptyCell { path: PathBuf, row: usize, column: String, more: More },
+    EmptyCell { path: PathBuf, row: usize, column: String, what: String, more: More },
+
+    #[error("{path}, row {row}, column `{column}`: time goes back from {before} s to {after} s{more}; {remedy}")]
+    TimeReversed { path: PathBuf, row: usize, column: String, before: f64, after: f64, more: More, remedy: String },
 
     #[error(
-        "{path}, row {row}, column `{column}`: time goes back from {before} s to {after} s{more}; sort the file or split \
-         the trial"
-    )]
-    TimeReversed { path: PathBuf, row: usize, column: String, before: f64, after: f64, more: More },
-
-    #[error(
-        "{path}, row {row}, column `{column}`: time stands still at {at} s{more}; delete one of the two rows or correct \
-         the time stamp"
+        "{path}, row {row}, column `{column}`: time stands still, duplicate time stamp {at} s{more}; delete one of the two \
+         rows or correct the time stamp"
     )]
     TimeStill { path: PathBuf, row: usize, column: String, at: f64, more: More },
 
@@ -223,9 +222,12 @@ pub enum DataError {
     Unjoined { at: String, trial: String, of: String, what: String },
 
     #[error(
-        "{path}, row {row}: the time of source `{of}` goes from {before} s to {after} s{more}; sort the file or split it"
+        "{path}, column `{column}`: the file has the unit {written:?}, and the manifest {told:?}; correct the unit"
     )]
-    SourceTime { path: PathBuf, of: String, row: usize, before: f64, after: f64, more: More },
+    OtherUnit { path: PathBuf, column: String, written: String, told: String },
+
+    #[error("{path}: not supported: {what}; {remedy}")]
+    Unsupported { path: PathBuf, what: String, remedy: &'static str },
 
     #[error("{0}")]
     NoHull(String),
@@ -280,6 +282,25 @@ impl DataError {
         DataError::WrongType { path: path.to_path_buf(), column: column.into(), kind: kind.into(), what, remedy }
     }
 
+    /// A file that a decoder does not read: what it does not support is no damage.
+    pub(crate) fn undecoded(path: &Path, reason: String, remedy: &'static str) -> Self {
+        let (path, lower) = (path.to_path_buf(), reason.to_lowercase());
+        match ["not supported", "not yet supported", "unsupported", "not implemented"].iter().any(|w| lower.contains(w))
+        {
+            true => DataError::Unsupported { path, what: reason, remedy },
+            false => DataError::Damaged { path, reason },
+        }
+    }
+
+    /// A column whose file says another unit than the manifest.
+    pub(crate) fn other_unit(path: &Path, column: &str, written: Option<&String>, told: &str) -> Option<Self> {
+        let (a, b) = (Unit::parse(written?).ok()?, Unit::parse(told).ok()?);
+        let same = a.dimension == b.dimension && a.factor() == b.factor();
+        let (path, column, written, told) =
+            (path.to_path_buf(), column.to_string(), written?.clone(), told.to_string());
+        (!same).then_some(DataError::OtherUnit { path, column, written, told })
+    }
+
     /// Where further cells with the same problem are noted, if it can have them.
     pub(crate) fn more(&mut self) -> Option<&mut More> {
         match self {
@@ -290,7 +311,6 @@ impl DataError {
             | DataError::TimeReversed { more, .. }
             | DataError::TimeStill { more, .. }
             | DataError::DuplicateRow { more, .. }
-            | DataError::SourceTime { more, .. }
             | DataError::RaggedRow { more, .. } => Some(more),
             _ => None,
         }

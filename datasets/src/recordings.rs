@@ -91,12 +91,13 @@ impl Recordings {
         let DataFiles { folder, files, unmatched, packed } =
             locate::locate(&manifest, folder, data_folder, &mut problems)?;
         let (wanted, held) = (layout.wanted(), None);
-        let (entries, spans, hash, warnings) = (Vec::new(), Vec::new(), String::new(), Vec::new());
+        let (entries, spans, hash) = (Vec::new(), Vec::new(), String::new());
         let mut plan =
             (!manifest.source.list.is_empty()).then(|| Plan::new(&manifest, &source, &folder, &mut problems));
         plan.iter_mut().for_each(|plan| plan.align(&mut problems));
         let alignments = plan.as_ref().map_or(Vec::new(), Plan::alignments);
         let notes = plan.as_ref().map_or(Vec::new(), |plan| plan.notes.clone());
+        let warnings = plan.as_mut().map_or(Vec::new(), |plan| std::mem::take(&mut plan.warnings));
         let mut set = Self {
             manifest,
             entries,

@@ -40,6 +40,8 @@ pub enum Dimension {
     Acceleration,
     /// Temperature, K.
     Temperature,
+    /// Temperature in degrees Celsius, which stays in them: a model that needs kelvins adds 273.15 itself.
+    Celsius,
     /// Power, W.
     Power,
     /// Volume flow, m³/s.
@@ -119,6 +121,7 @@ pub const ALL: &[Unit] = &[
     unit("rpm", Dimension::AngularVelocity, PI, 30.0),
     unit("m/s^2", Dimension::Acceleration, 1.0, 1.0),
     unit("K", Dimension::Temperature, 1.0, 1.0),
+    unit("°C", Dimension::Celsius, 1.0, 1.0),
     unit("W", Dimension::Power, 1.0, 1.0),
     unit("kW", Dimension::Power, 1000.0, 1.0),
     unit("m^3/s", Dimension::Flow, 1.0, 1.0),
@@ -135,7 +138,7 @@ impl Unit {
     pub fn parse(name: &str) -> Result<Unit, UnknownUnit> {
         let written = written(name);
         ALL.iter()
-            .find(|u| u.name == name || u.name == written)
+            .find(|u| u.name == name.trim() || u.name == written)
             .copied()
             .ok_or_else(|| UnknownUnit { name: name.chars().take(40).collect() })
     }
@@ -171,6 +174,8 @@ fn written(name: &str) -> String {
         "Nmm" => "N*mm".into(),
         "m/s2" => "m/s^2".into(),
         "m3/s" => "m^3/s".into(),
+        "L/min" => "l/min".into(),
+        "degC" | "deg_C" | "ºC" | "℃" => "°C".into(),
         _ => plain,
     }
 }
@@ -187,7 +192,7 @@ impl UnknownUnit {
             "pascal" | "pascals" => Some("Pa"),
             "volt" | "volts" => Some("V"),
             "percent" => Some("%"),
-            "degc" | "°c" | "c" | "celsius" => return " (write \"K\": a constant offset changes no result)".into(),
+            "degc" | "°c" | "c" | "celsius" => Some("°C"),
             "" | "-" | "none" => Some("1"),
             "samples" | "index" => Some("sample"),
             other => ALL.iter().find(|u| u.name.to_lowercase() == other).map(|u| u.name),
@@ -241,6 +246,8 @@ mod tests {
             ("µm", "um"),
             ("°", "deg"),
             ("°/s", "deg/s"),
+            ("degC", "°C"),
+            ("L/min", "l/min"),
         ] {
             assert_eq!(Unit::parse(one), Unit::parse(other), "{one}");
             assert!(Unit::parse(one).is_ok(), "{one}");
@@ -251,8 +258,9 @@ mod tests {
     fn an_unknown_unit_lists_the_known_ones_and_guesses() {
         let message = Unit::parse("degrees").map(|_| String::new()).unwrap_or_else(|e| e.to_string());
         assert!(message.contains("\"degrees\" (did you mean \"deg\"?)"), "{message}");
-        let celsius = Unit::parse("°C").map(|_| String::new()).unwrap_or_else(|e| e.to_string());
-        assert!(celsius.starts_with("unknown unit \"°C\" (write \"K\""), "{celsius}");
+        assert_eq!(Unit::parse("°C").map(|unit| (unit.si_name(), unit.to_si(21.5))), Ok(("°C", 21.5)));
+        let celsius = Unit::parse("celsius").map(|_| String::new()).unwrap_or_else(|e| e.to_string());
+        assert!(celsius.contains("did you mean \"°C\"?"), "{celsius}");
         assert!(message.contains("rad") && message.contains("kPa") && message.contains("sample"), "{message}");
         let message = Unit::parse("furlong").map(|_| String::new()).unwrap_or_else(|e| e.to_string());
         assert!(

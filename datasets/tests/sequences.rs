@@ -181,7 +181,7 @@ fn what_cannot_be_is_named_with_its_place() {
         ("a,training,0.5,2.0,1", "a,training,0.5,,1", &["row 3", "`u`", "empty"]),
         ("b,test,7.1,5.0,1", "b,test,7.1,5.0,0.5", &["row 6", "`y`", "0.5", "no label", "write 0 or 1"]),
         ("b,test,7.1,5.0,1", "b,test,6.9,5.0,1", &["row 6", "`t`", "goes back from 7 s to 6.9 s", "sort"]),
-        ("b,test,7.1,5.0,1", "b,test,7.0,5.0,1", &["row 6", "`t`", "stands still at 7 s"]),
+        ("b,test,7.1,5.0,1", "b,test,7.0,5.0,1", &["row 6", "`t`", "stands still, duplicate time stamp 7 s"]),
         ("b,test,7.1,5.0,1", "b,training,7.1,5.0,1", &["row 6", "`part`", "`b`", "test", "training", "one part"]),
         ("c,validation,0.0", "c,exam,0.0", &["row 7", "`part`", "exam", "training, validation or test"]),
         ("c,validation,1.0,7.0,1", "a,training,3.0,7.0,1", &["row 8", "`a`", "another one", "sort"]),

@@ -76,7 +76,8 @@ fn time() -> Vec<Case> {
         };
         let back = said(&["time goes back from", "sort the file or split the trial"]).row(row).column("t");
         cases.push(case(&format!("time goes back in row {row}"), back, with((before - 50).to_string())));
-        let still = said(&["time stands still at", "delete one of the two rows"]).row(row).column("t");
+        let still =
+            said(&["time stands still, duplicate time stamp", "delete one of the two rows"]).row(row).column("t");
         cases.push(case(&format!("time stands still in row {row}"), still, with(before.to_string())));
         let negative = said(&["time goes back from"]).row(row).column("t");
         cases.push(case(&format!("negative time in row {row}"), negative, with("-5".into())));
@@ -146,25 +147,9 @@ fn headers() -> Vec<Case> {
 
 fn encodings() -> Vec<Case> {
     let good = csv(&rows(1));
-    let utf16 = |little: bool| -> Vec<u8> {
-        let units = good.encode_utf16().flat_map(move |u| if little { u.to_le_bytes() } else { u.to_be_bytes() });
-        let mark: [u8; 2] = if little { [0xff, 0xfe] } else { [0xfe, 0xff] };
-        mark.into_iter().chain(units).collect()
-    };
+    let utf16: Vec<u8> = good.encode_utf16().flat_map(u16::to_le_bytes).collect();
     let utf8 = "save the file as CSV in UTF-8";
-    let mut cases = vec![
-        case("UTF-16, little end first", said(&["UTF-16", utf8]).row(1), file(utf16(true))),
-        case("UTF-16, big end first", said(&["UTF-16", utf8]).row(1), file(utf16(false))),
-        case("UTF-16 without a mark", said(&["zero byte"]).row(1), file(utf16(true)[2..].to_vec())),
-        case("semicolons", said(&["separated by ';'", "set `separator`"]).row(1), file(good.replace(',', ";"))),
-        case("tabs", said(&["separated by '\\t'", "set `separator`"]).row(1), file(good.replace(',', "\t"))),
-        case("bars", said(&["separated by '|'", "set `separator`"]).row(1), file(good.replace(',', "|"))),
-        case(
-            "semicolons and decimal commas",
-            said(&["separated by ';'"]).row(1),
-            file(good.replace(',', ";").replace('.', ",")),
-        ),
-    ];
+    let mut cases = vec![case("UTF-16 without a mark", said(&["zero byte"]).row(1), file(utf16))];
     for (j, column) in COLUMNS.iter().enumerate() {
         for row in [3usize, 50] {
             let spoiled = |byte: u8| -> Vec<u8> {
@@ -206,7 +191,7 @@ fn other_formats() -> Vec<Case> {
         ),
         case(
             "200 kB of separators",
-            said(&["200001 cells under 4 columns"]).row(2),
+            said(&["the cell is empty"]).row(2).column("q"),
             file(format!("t,q,h,y\n{}\n", ",".repeat(200_000))),
         ),
         case(
@@ -218,7 +203,7 @@ fn other_formats() -> Vec<Case> {
             std::fs::File::create(set.file("data/run_b.csv"))?.set_len(5 << 30)
         }),
     ];
-    for (ending, how) in [("gz", "gzip"), ("xz", "xz"), ("zst", "zstd"), ("zip", "zip")] {
+    for (ending, how) in [("xz", "xz"), ("zst", "zstd"), ("zip", "zip")] {
         let named = Said::of(3, &format!("run_b.csv.{ending}"), &["compressed with", how, "decompress it"]);
         cases.push(case(&format!("a table with the ending .{ending}"), named, move |set| {
             std::fs::rename(set.file("data/run_b.csv"), set.file(&format!("data/run_b.csv.{ending}")))?;
@@ -228,9 +213,7 @@ fn other_formats() -> Vec<Case> {
     }
     for (what, start, words) in [
         ("a spreadsheet", &b"PK\x03\x04\x14\0"[..], &["spreadsheet", "save the table as CSV"][..]),
-        ("gzip", &[0x1f, 0x8b, 8, 0], &["gzip", "decompress it"]),
         ("zstd", &[0x28, 0xb5, 0x2f, 0xfd, 0], &["zstd", "decompress it"]),
-        ("Parquet", b"PAR1\x15\x04", &["a Parquet file", "end in .parquet"]),
         ("a web page", b"<!DOCTYPE html><html>", &["a web page", "download the table itself"]),
     ] {
         cases.push(case(&format!("{what} under the name of a CSV file"), said(words).row(1), file(start.to_vec())));

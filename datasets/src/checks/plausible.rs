@@ -9,7 +9,9 @@ mod digits;
 use std::ops::Range;
 use std::path::PathBuf;
 
-use crate::checks::suspect;
+use nalgebra::DMatrix;
+
+use crate::checks::{periodic, suspect};
 use crate::ingest::layout::{Layout, Source};
 use crate::manifest::{Manifest, Role};
 use crate::preprocessing::segments::median_step;
@@ -33,7 +35,7 @@ fn limit(dimension: Dimension) -> Option<f64> {
         Dimension::Velocity => 1e3,
         Dimension::AngularVelocity => 1e4,
         Dimension::Acceleration => 1e4,
-        Dimension::Temperature => 2e3,
+        Dimension::Temperature | Dimension::Celsius => 2e3,
         Dimension::One | Dimension::Time | Dimension::Sample | Dimension::Frequency => return None,
         Dimension::Power | Dimension::Flow | Dimension::FluxDensity => return None,
     })
@@ -98,13 +100,43 @@ impl Seen {
             step: median_step(&trial.time, std::slice::from_ref(&whole)),
             pause: steps.reduce(|a, b| if b.0 > a.0 { b } else { a }),
             typed_time,
-            suspicions: if trial.role == Role::Excluded { Vec::new() } else { suspect::look(trial, rows, layout) },
+            suspicions: if trial.role == Role::Excluded {
+                Vec::new()
+            } else {
+                [suspect::look(trial, rows, layout), jumps(trial, rows, layout)].concat()
+            },
         }
     }
 
     fn greatest(&self, column: usize) -> f64 {
         self.ranges.get(column).map_or(0.0, |(low, high)| low.abs().max(high.abs()))
     }
+}
+
+/// Signals of a table that jump by a period; those of sources are looked at before they are joined.
+fn jumps(trial: &Trial, rows: &[usize], layout: &Layout) -> Vec<String> {
+    if layout.joined {
+        return Vec::new();
+    }
+    let declared = |name: &String| {
+        layout.periods.contains_key(name) || layout.quaternions.iter().flatten().any(|part| part == name)
+    };
+    let parts = [(&layout.actuators, Some(&trial.actuators)), (&layout.context, Some(&trial.context))];
+    let others = [(&layout.measured, Some(&trial.measured)), (&layout.vehicle, trial.vehicle.as_ref())];
+    let of = |(sources, values): (&Vec<Source>, Option<&DMatrix<f64>>)| {
+        let mut named: Vec<(&Source, Vec<f64>)> = Vec::new();
+        for (source, column) in sources.iter().zip(values.into_iter().flat_map(DMatrix::column_iter)) {
+            named.push((source, column.iter().map(|value| value / source.unit.factor()).collect()));
+        }
+        let columns: Vec<periodic::Column> = named
+            .iter()
+            .filter(|(source, _)| !declared(&source.column))
+            .map(|(source, values)| periodic::Column { name: &source.column, unit: Some(source.unit), values })
+            .collect();
+        let (table, row) = ("[table]".to_string(), |i: usize| rows[i]);
+        periodic::warnings(&columns, &periodic::Place { file: &trial.file, trial: &trial.name, table, row: &row })
+    };
+    parts.into_iter().chain(others).flat_map(of).collect()
 }
 
 /// Warnings for the signals of the trials. What is said of all of them together waits until they are `complete`.

@@ -15,7 +15,6 @@
 //! Values stay in the file's unit, and NaN is an empty cell. Only the wanted columns are kept, so that the memory
 //! is theirs and not the file's.
 
-mod lines;
 #[cfg(feature = "mcap")]
 mod mcap;
 mod motive;

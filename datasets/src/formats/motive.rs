@@ -20,10 +20,11 @@
 
 use std::path::Path;
 
-use super::lines::Lines;
-use super::numbers::{self, Layout};
+use super::numbers::{self, Layout, next_names};
 use super::{Column, Format, Group, Keep, Take, no_such, unique};
 use crate::error::DataError;
+use crate::ingest::recording::csv::rows::Rows;
+use crate::ingest::recording::csv::text;
 
 /// Rows above the row of `Frame`, at most.
 const HEADER_ROWS: usize = 40;
@@ -38,17 +39,20 @@ struct Header {
 }
 
 pub(super) fn read(path: &Path, keep: Keep) -> Result<Take, DataError> {
-    let mut lines = Lines::open(path)?;
-    let header = Header::read(&mut lines)?;
+    let mut take = Take::new(Format::Motive);
+    let text = text::read(path, &mut take.notes)?;
+    let separator = numbers::separator(&text);
+    let mut rows = Rows::new(path, &text, separator, 1);
+    let header = Header::read(path, &mut rows)?;
     let lead = if header.labels.get(2).is_some_and(|label| label.eq_ignore_ascii_case("timecode")) { 3 } else { 2 };
     let mut columns = header.columns(lead);
     unique(&mut columns);
-    let rows = numbers::read(&mut lines, Layout { separator: b',', lead, columns, until_blank: false }, keep)?;
+    let rows = numbers::read(path, &mut rows, Layout { separator, lead, columns, until_blank: false }, keep)?;
     if rows.frames.is_empty() {
         return Err(DataError::NoRows { path: path.to_path_buf() });
     }
-    let mut take = Take::new(Format::Motive);
     take.lost = rows.lost;
+    take.notes.extend(rows.notes);
     let (time, rate) = header.times(&rows.frames, &rows.seconds, &mut take.notes, path, rows.first_row)?;
     header.describe(&mut take, rows.frames.len());
     let (samples, span) = (time.len(), (time[0], time[time.len() - 1]));
@@ -67,19 +71,19 @@ pub(super) fn read(path: &Path, keep: Keep) -> Result<Take, DataError> {
 }
 
 impl Header {
-    fn read(lines: &mut Lines) -> Result<Header, DataError> {
-        let mut rows = Vec::new();
-        while let Some(names) = lines.names(b',')? {
+    fn read(path: &Path, rows: &mut Rows) -> Result<Header, DataError> {
+        let mut above = Vec::new();
+        while let Some(names) = next_names(rows)? {
             if names[0] == "Frame" {
-                return Ok(Header { rows, labels: names });
+                return Ok(Header { rows: above, labels: names });
             }
-            rows.push(names);
-            if rows.len() > HEADER_ROWS {
+            above.push(names);
+            if above.len() > HEADER_ROWS {
                 break;
             }
         }
         let what = "no row begins with `Frame`, as one of a Motive export does";
-        Err(no_such(&lines.path, lines.row, what, "export the take as CSV again, or name another `format`"))
+        Err(no_such(path, rows.number, what, "export the take as CSV again, or name another `format`"))
     }
 
     /// The value of a key in the first row.
@@ -163,7 +167,9 @@ impl Header {
         path: &Path,
         first_row: usize,
     ) -> Result<(Vec<f64>, Option<f64>), DataError> {
-        let rate = |key: &str| self.value(key)?.parse::<f64>().ok().filter(|rate| rate.is_finite() && *rate > 0.0);
+        let rate = |key: &str| {
+            self.value(key)?.replace(',', ".").parse::<f64>().ok().filter(|rate| rate.is_finite() && *rate > 0.0)
+        };
         let declared: Vec<f64> =
             ["Export Frame Rate", "Capture Frame Rate"].iter().filter_map(|key| rate(key)).collect();
         if let Some((time, rate)) = numbers::from_frames(frames, stamps, &declared) {
@@ -182,11 +188,15 @@ impl Header {
     }
 
     fn describe(&self, take: &mut Take, samples: usize) {
-        for key in ["Format Version", "Rotation Type", "Length Units", "Coordinate Space", "Capture Start Time"] {
+        for key in ["Format Version", "Rotation Type", "Coordinate Space", "Capture Start Time"] {
             take.notes.extend(self.value(key).map(|value| format!("{key}: {value}")));
         }
+        take.notes.extend(self.length_unit().map(|unit| format!("Length Units: {unit}")));
         if self.length_unit().is_none() {
-            take.notes.push("no unit of length is declared".into());
+            take.notes.push(match self.value("Length Units") {
+                Some(unit) => format!("Length Units: {unit} is not known, so positions have no unit"),
+                None => "no unit of length is declared".into(),
+            });
         }
         let promised = self.value("Total Exported Frames").and_then(|value| value.parse::<usize>().ok());
         if let Some(promised) = promised.filter(|promised| *promised != samples) {

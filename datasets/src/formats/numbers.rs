@@ -1,16 +1,19 @@
-//! Rows of numbers below a header: wanted cells become columns, others are skipped.
+//! Rows of numbers below a header: the wanted cells become columns, the others are skipped.
 //!
-//! An empty cell is NaN. Of the cells of a column that are not numbers the first is reported, with the rows of the others. A
-//! last row that is cut off is left out and reported; any other row with too few cells is refused.
+//! Separators, decimal commas and spellings of missing values are those of any text table ([`crate::ingest::recording::csv`]). A last
+//! row that is cut off is left out and reported; any other row with too few cells is refused, and so is one with more than the
+//! header that are not empty.
 
-use std::collections::BTreeMap;
+use std::path::Path;
 
-use super::lines::Lines;
 use super::{Column, Keep, check_size};
-use crate::error::{DataError, More, Problems, shown};
+use crate::error::{DataError, More, Problems};
+use crate::ingest::recording::csv::decimal::Evidence;
+use crate::ingest::recording::csv::rows::{BLANKS, Rows, bare, width};
+use crate::ingest::recording::{Missing, Texts, numbers_of, spelled};
 
 /// Two leading cells (frame, and time or sub-frame) and the columns after them.
-pub(super) struct Rows {
+pub(super) struct Table {
     /// First cell of each row: the frame.
     pub frames: Vec<f64>,
     /// Second cell of each row: time or sub-frame; NaN where it is empty.
@@ -20,134 +23,129 @@ pub(super) struct Rows {
     pub first_row: usize,
     /// Rows that were left out, a sentence each.
     pub lost: Vec<String>,
+    /// Recognised properties.
+    pub notes: Vec<String>,
 }
 
 /// Where the columns of a table stand.
 pub(super) struct Layout {
-    pub separator: u8,
-    /// Cells before the columns: frame, second cell, and what is passed over.
+    pub separator: char,
+    /// Cells before the columns: frame, second cell, and what is skipped.
     pub lead: usize,
     pub columns: Vec<Column>,
-    /// Stop at an empty line; else it is passed over.
+    /// Stop at an empty line; else it is skipped.
     pub until_blank: bool,
 }
 
-/// Which cell of a row is which column.
-struct Plan {
-    /// Index of the column, by cell; none is passed over.
-    kept: Vec<Option<usize>>,
-    cells: usize,
+/// A column that is kept: index of its cell, its name, and its cells.
+struct Kept {
+    cell: usize,
+    name: String,
+    texts: Texts,
+}
+
+/// The separator behind the first cell of the row of labels, which begins with `Frame`.
+pub(super) fn separator(text: &str) -> char {
+    let label = |line: &&str| line.starts_with("Frame");
+    let line = text.lines().take(80).map(|line| line.trim_start_matches(['"', '\u{feff}'])).find(label);
+    let behind = line.and_then(|line| line["Frame".len()..].trim_start_matches(['#', '"']).chars().next());
+    behind.filter(|sign| [',', ';', '\t', '|', BLANKS].contains(sign)).unwrap_or(',')
+}
+
+/// The cells of the current row as names: without control characters.
+pub(super) fn names(rows: &Rows) -> Vec<String> {
+    let name = |cell: &str| bare(cell).chars().filter(|c| !c.is_control()).collect();
+    rows.record.iter().map(name).collect()
+}
+
+/// The next row as names; `None` after the last.
+pub(super) fn next_names(rows: &mut Rows) -> Result<Option<Vec<String>>, DataError> {
+    Ok(rows.next()?.then(|| names(rows)))
+}
+
+/// The last cell that is not empty, and those before it.
+pub(super) fn without_empty_end(mut cells: Vec<String>) -> Vec<String> {
+    while cells.last().is_some_and(String::is_empty) {
+        cells.pop();
+    }
+    cells
 }
 
 /// Reads the rows that follow.
-pub(super) fn read(lines: &mut Lines, layout: Layout, keep: Keep) -> Result<Rows, DataError> {
-    let Layout { separator, lead, columns, until_blank } = layout;
-    let kept = columns.iter().enumerate().map(|(i, column)| keep.keeps(&column.name).then_some(i)).collect();
-    let plan = Plan { kept, cells: lead + columns.len() };
-    let (path, mut broken) = (lines.path.clone(), None::<(usize, usize)>);
-    let mut rows = Rows { frames: vec![], seconds: vec![], columns, first_row: lines.row + 1, lost: vec![] };
-    let mut problems = BTreeMap::<usize, DataError>::new();
-    let width = 2 + plan.kept.iter().flatten().count();
-    loop {
-        let row = lines.row + 1;
-        let Some(line) = lines.next()? else { break };
-        if line.iter().all(|byte| *byte == separator || byte.is_ascii_whitespace()) {
-            if until_blank && !rows.frames.is_empty() {
-                break;
-            }
+pub(super) fn read(path: &Path, rows: &mut Rows, layout: Layout, keep: Keep) -> Result<Table, DataError> {
+    let Layout { separator, lead, mut columns, until_blank } = layout;
+    let expected = lead + columns.len();
+    let asked = columns.iter().enumerate().filter(|(_, column)| keep.keeps(&column.name));
+    let asked = asked.map(|(i, column)| (lead + i, column.name.clone()));
+    let all = [(0, "Frame".to_string()), (1, "Time".to_string())].into_iter().chain(asked);
+    let mut kept: Vec<Kept> = all.map(|(cell, name)| Kept { cell, name, texts: Texts::default() }).collect();
+    let (mut numbers, mut lost, mut broken) = (Vec::new(), Vec::new(), None::<(usize, usize)>);
+    while rows.next()? {
+        let filled = width(&rows.record);
+        if until_blank && !numbers.is_empty() && (rows.blank > 0 || filled == 0) {
+            rows.held = filled > 0;
+            break;
+        }
+        if filled == 0 {
             continue;
         }
         if let Some((row, found)) = broken {
-            let what = format!(
-                "none for column `{}`",
-                rows.columns.get(found.saturating_sub(lead)).map_or("Frame", |c| &c.name)
-            );
-            let (expected, more) = (plan.cells, More::default());
-            return Err(DataError::RaggedRow { path, row, expected, found, what, more });
+            return Err(ragged(path, row, found, lead, &columns));
         }
-        if rows.frames.is_empty() {
-            rows.first_row = row;
-        }
-        let found = one(line, separator, lead, row, &plan, &mut rows, &mut problems, &path);
-        if found < plan.cells {
-            broken = Some((row, found));
-            take_back(&mut rows, &plan);
-        }
-        check_size(&path, rows.frames.len() * width)?;
-    }
-    if let Some((row, found)) = broken {
-        rows.lost.push(format!("row {row} is cut off after {found} of {} cells and left out", plan.cells));
-        problems.retain(|_, problem| !matches!(problem, DataError::NotANumber { row: at, .. } if *at == row));
-    }
-    Problems(problems.into_values().collect()).into_result()?;
-    Ok(rows)
-}
-
-/// Removes what a row that is cut off has left.
-fn take_back(rows: &mut Rows, plan: &Plan) {
-    rows.frames.pop();
-    rows.seconds.pop();
-    let samples = rows.frames.len();
-    plan.kept.iter().flatten().for_each(|i| rows.columns[*i].values.truncate(samples));
-}
-
-/// Takes one row apart; how many cells it has.
-#[allow(clippy::too_many_arguments)]
-fn one(
-    line: &[u8],
-    separator: u8,
-    lead: usize,
-    row: usize,
-    plan: &Plan,
-    rows: &mut Rows,
-    problems: &mut BTreeMap<usize, DataError>,
-    path: &std::path::Path,
-) -> usize {
-    let (mut start, mut found) = (0, 0);
-    let mut refuse = |cell: &[u8], index: usize, column: &str| {
-        let value = shown(&String::from_utf8_lossy(cell));
-        let (path, column, what, remedy) = (path.to_path_buf(), column.to_string(), "", "correct the cell or empty it");
-        if let Some(more) = problems.get_mut(&index).and_then(DataError::more) {
-            more.add(row);
-        } else {
-            let more = More::default();
-            problems.insert(index, DataError::NotANumber { path, row, column, value, what, remedy, more });
-        }
-        f64::NAN
-    };
-    let (mut frame, mut second) = (f64::NAN, f64::NAN);
-    while start <= line.len() {
-        let end = memchr::memchr(separator, &line[start..]).map_or(line.len(), |length| start + length);
-        let cell = &line[start..end];
-        match found {
-            0 => frame = number(cell).unwrap_or_else(|| refuse(cell, 0, "Frame")),
-            1 => second = number(cell).unwrap_or_else(|| refuse(cell, 1, "Time")),
-            _ if found < lead => {}
-            _ => {
-                if let Some(i) = plan.kept.get(found - lead).copied().flatten() {
-                    let value = number(cell).unwrap_or_else(|| refuse(cell, found, &rows.columns[i].name));
-                    rows.columns[i].values.push(value);
-                }
+        let found = rows.record.len();
+        match found < expected {
+            true => broken = Some((rows.number, found)),
+            false if filled > expected => return Err(ragged(path, rows.number, found, lead, &columns)),
+            false => {
+                kept.iter_mut().for_each(|column| column.texts.push(bare(rows.record.get(column.cell).unwrap_or(""))));
+                numbers.push(rows.number);
+                check_size(path, numbers.len() * kept.len())?;
             }
         }
-        found += 1;
-        start = end + 1;
-        if found == plan.cells {
-            break;
-        }
     }
-    rows.frames.push(frame);
-    rows.seconds.push(second);
-    found
+    lost.extend(
+        broken.map(|(row, found)| format!("row {row} is cut off after {found} of {expected} cells and left out")),
+    );
+    let (mut values, notes) = parsed(path, separator, &numbers, kept)?;
+    let (first_row, rest) = (numbers.first().copied().unwrap_or(rows.number), values.split_off(2));
+    for (cell, values) in rest {
+        columns[cell - lead].values = values;
+    }
+    let [(_, frames), (_, seconds)] = <[_; 2]>::try_from(values).unwrap_or_default();
+    Ok(Table { frames, seconds, columns, first_row, lost, notes })
 }
 
-/// The number in a cell, NaN in an empty one; none where it is no finite number below 1e30.
-fn number(cell: &[u8]) -> Option<f64> {
-    let cell = cell.trim_ascii();
-    if cell.is_empty() {
-        return Some(f64::NAN);
+/// A column by its cell, and its numbers.
+type Values = (usize, Vec<f64>);
+
+/// The numbers of each column, and what was recognised of how they are written.
+fn parsed(
+    path: &Path,
+    separator: char,
+    rows: &[usize],
+    kept: Vec<Kept>,
+) -> Result<(Vec<Values>, Vec<String>), DataError> {
+    let (mut notes, mut evidence, mut missing, mut problems) =
+        (Vec::new(), Evidence::default(), Missing::new(), Vec::new());
+    for column in &kept {
+        column.texts.iter().zip(rows).for_each(|(cell, row)| evidence.see(*row, &column.name, cell));
     }
-    fast_float2::parse::<f64, _>(cell).ok().filter(|value| value.abs() <= 1e30)
+    let decimal = evidence.decide(path, separator, None, &mut notes)?;
+    let mut read = |Kept { cell, name, texts }: Kept| {
+        (cell, numbers_of(path, &name, &|i| rows[i], texts, decimal, &mut missing, &mut problems))
+    };
+    let values = kept.into_iter().map(&mut read).collect();
+    notes.extend(spelled(&missing));
+    Problems(problems).into_result().map(|()| (values, notes))
+}
+
+fn ragged(path: &Path, row: usize, found: usize, lead: usize, columns: &[Column]) -> DataError {
+    let (expected, more) = (lead + columns.len(), More::default());
+    let what = match found < expected {
+        true => format!("none for column `{}`", columns.get(found.saturating_sub(lead)).map_or("Frame", |c| &c.name)),
+        false => format!("so cell {} has no column", expected + 1),
+    };
+    DataError::RaggedRow { path: path.to_path_buf(), row, expected, found, what, more }
 }
 
 /// Times of frames, s: those of frame ÷ rate where they agree with the column of times within its rounding.
@@ -186,9 +184,11 @@ mod tests {
 
     /// Oracle: by hand.
     #[test]
-    fn an_empty_cell_is_no_number_and_no_problem() {
-        assert_eq!(number(b" -1.5e-3 "), Some(-1.5e-3));
-        assert!(number(b"").is_some_and(f64::is_nan));
-        assert_eq!((number(b"1,5"), number(b"nan"), number(b"inf"), number(b"1e31")), (None, None, None, None));
+    fn the_row_of_labels_shows_the_separator() {
+        for (text, sign) in
+            [("a;b\nFrame;Time", ';'), ("\"Frame\",\"Time\"", ','), ("x\nFrame#  Time", ' '), ("Frame#\tTime", '\t')]
+        {
+            assert_eq!(separator(text), sign, "{text:?}");
+        }
     }
 }

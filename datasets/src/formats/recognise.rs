@@ -96,13 +96,21 @@ fn of(name: &str, head: &[u8]) -> Option<Format> {
 
 /// A first row of keys and values, or a row of labels that begins with `Frame,Time`.
 fn is_motive(text: &str) -> bool {
-    let labels = |line: &str| line.starts_with("Frame,Time,") || line.starts_with("Frame,Time (Seconds),");
-    text.starts_with("Format Version,") || text.lines().skip(1).take(12).any(labels)
+    let is_labels = |line: &str| matches!(labels(line), ["Frame", "Time" | "Time (Seconds)"]);
+    labels(text.lines().next().unwrap_or_default())[0] == "Format Version"
+        || text.lines().skip(1).take(12).any(is_labels)
 }
 
-/// A section's name, and `Frame,Sub Frame` three rows below it.
+/// A section's name, and `Frame,Sub Frame` three rows below it; other sections may precede it.
 fn is_vicon(text: &str) -> bool {
-    text.lines().take(12).any(|line| line.starts_with("Frame,Sub Frame"))
+    text.lines().take(200).any(|line| labels(line) == ["Frame", "Sub Frame"])
+}
+
+/// The first two cells of a line with a third, whatever separates them.
+fn labels(line: &str) -> [&str; 2] {
+    let mut cells = line.split([',', ';', '\t']).map(|cell| cell.trim().trim_matches('"'));
+    let labels = [cells.next().unwrap_or_default(), cells.next().unwrap_or_default()];
+    if cells.next().is_some() { labels } else { [""; 2] }
 }
 
 #[cfg(test)]
@@ -116,6 +124,11 @@ mod tests {
         assert_eq!(of("a.csv", "Format Version,1.23,Take Name,x"), Some(Format::Motive));
         assert_eq!(of("a.csv", ",,Type\nFrame,Time (Seconds),X"), Some(Format::Motive));
         assert_eq!(of("a.csv", "\nTrajectories\n100\n,,A\nFrame,Sub Frame,X"), Some(Format::Vicon));
+        assert_eq!(of("a.csv", "Format Version;1,23;Take Name;x"), Some(Format::Motive));
+        assert_eq!(
+            of("a.csv", "Events\n50\na,b,c\n\nTrajectories\n100\n\t\tA\nFrame\tSub Frame\tX"),
+            Some(Format::Vicon)
+        );
         assert_eq!(of("a.csv", "PathFileType,4,(X/Y/Z)"), Some(Format::Trc));
         assert_eq!(of("a.csv", "t,q\n0,1"), Some(Format::Csv));
         assert_eq!(of("a.csv", "Frame,Time,X\n0,1,2"), Some(Format::Csv), "a table whose header looks alike");

@@ -16,21 +16,26 @@
 
 use std::path::Path;
 
-use super::lines::{Lines, without_empty_end};
-use super::numbers::{self, Layout};
+use super::numbers::{self, Layout, next_names, without_empty_end};
 use super::{Column, Format, Group, Keep, Take, no_such, unique};
 use crate::error::DataError;
+use crate::ingest::recording::csv::rows::{BLANKS, Rows};
+use crate::ingest::recording::csv::text;
 
 pub(super) fn read(path: &Path, keep: Keep) -> Result<Take, DataError> {
-    let mut lines = Lines::open(path)?;
-    let (separator, keys, values) = head(&mut lines)?;
+    let mut take = Take::new(Format::Trc);
+    let text = text::read(path, &mut take.notes)?;
+    let separator = numbers::separator(&text);
+    let mut rows = Rows::new(path, &text, separator, 1);
+    let (keys, values) = head(path, &mut rows)?;
     let value = |key: &str| values.get(keys.iter().position(|k| k.eq_ignore_ascii_case(key))?).map(String::as_str);
-    let names = lines.names(separator)?.unwrap_or_default();
+    let names = next_names(&mut rows)?.unwrap_or_default();
     if names.len() < 3 || !names[0].starts_with("Frame") {
         let what = "the fourth row does not begin with Frame#, Time and the markers";
-        return Err(no_such(path, lines.row, what, "export the markers as TRC again"));
+        return Err(no_such(path, rows.number, what, "export the markers as TRC again"));
     }
-    let axes = lines.names(separator)?.unwrap_or_default();
+    let axes = next_names(&mut rows)?.unwrap_or_default();
+    let (names, axes) = if separator == BLANKS { spread(&names, &axes) } else { (names, axes) };
     let unit = match value("Units") {
         Some("mm") => Some("mm"),
         Some("m") => Some("m"),
@@ -39,16 +44,16 @@ pub(super) fn read(path: &Path, keep: Keep) -> Result<Take, DataError> {
     };
     let mut columns = columns(&names, &axes, unit);
     unique(&mut columns);
-    let rows = numbers::read(&mut lines, Layout { separator, lead: 2, columns, until_blank: false }, keep)?;
+    let rows = numbers::read(path, &mut rows, Layout { separator, lead: 2, columns, until_blank: false }, keep)?;
     if rows.frames.is_empty() {
         return Err(DataError::NoRows { path: path.to_path_buf() });
     }
-    let mut take = Take::new(Format::Trc);
     take.lost = rows.lost;
+    take.notes.extend(rows.notes);
     if unit.is_none() {
         take.notes.push(format!("unit {:?} is not known: its columns have none", value("Units").unwrap_or("")));
     }
-    let rate = value("DataRate").and_then(|rate| rate.parse::<f64>().ok()).filter(|rate| *rate > 0.0);
+    let rate = value("DataRate").and_then(|rate| rate.replace(',', ".").parse::<f64>().ok()).filter(|rate| *rate > 0.0);
     let from_frames = numbers::from_frames(&rows.frames, &rows.seconds, rate.as_slice());
     let (time, rate) = match from_frames {
         Some((time, rate)) => {
@@ -80,17 +85,24 @@ pub(super) fn read(path: &Path, keep: Keep) -> Result<Take, DataError> {
     Ok(take)
 }
 
-/// Separator, keys and their values, from the first three rows.
-fn head(lines: &mut Lines) -> Result<(u8, Vec<String>, Vec<String>), DataError> {
-    let first = lines.next()?.unwrap_or_default().to_vec();
-    if !first.starts_with(b"PathFileType") {
+/// Keys and their values, from the first three rows.
+fn head(path: &Path, rows: &mut Rows) -> Result<(Vec<String>, Vec<String>), DataError> {
+    let first = next_names(rows)?.unwrap_or_default();
+    if !first.first().is_some_and(|cell| cell.starts_with("PathFileType")) {
         let what = "the first row does not begin with PathFileType, as one of a TRC file does";
-        return Err(no_such(&lines.path, 1, what, "export the markers as TRC again, or name another `format`"));
+        return Err(no_such(path, 1, what, "export the markers as TRC again, or name another `format`"));
     }
-    let separator = if first.contains(&b'\t') { b'\t' } else { b',' };
-    let keys = lines.names(separator)?.unwrap_or_default();
-    let values = lines.names(separator)?.unwrap_or_default();
-    Ok((separator, keys, values))
+    Ok((next_names(rows)?.unwrap_or_default(), next_names(rows)?.unwrap_or_default()))
+}
+
+/// Names and axes as they stand where empty cells can be written: two cells before the axes, and a name over its first axis.
+fn spread(names: &[String], axes: &[String]) -> (Vec<String>, Vec<String>) {
+    let each = axes.len() / names.len().saturating_sub(2).max(1);
+    let name =
+        |name: &String| std::iter::once(name.clone()).chain(std::iter::repeat_n(String::new(), each.saturating_sub(1)));
+    let lead = names.iter().take(2).cloned();
+    let none = std::iter::repeat_n(String::new(), 2);
+    (lead.chain(names.iter().skip(2).flat_map(name)).collect(), none.chain(axes.iter().cloned()).collect())
 }
 
 fn promised(take: &mut Take, value: Option<&str>, found: usize, what: &str) {

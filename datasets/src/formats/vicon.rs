@@ -20,24 +20,27 @@
 
 use std::path::Path;
 
-use super::lines::Lines;
-use super::numbers::{self, Layout, Rows};
+use super::numbers::{self, Layout, Table, next_names, without_empty_end};
 use super::{Column, Format, Group, Keep, Take, no_such};
 use crate::error::DataError;
+use crate::ingest::recording::csv::rows::{Rows, width};
+use crate::ingest::recording::csv::text;
 use crate::units::Unit;
 
 /// Rows before the first section, at most.
 const BEFORE: usize = 40;
 
 pub(super) fn read(path: &Path, keep: Keep) -> Result<Take, DataError> {
-    let mut lines = Lines::open(path)?;
     let mut take = Take::new(Format::Vicon);
-    while let Some(name) = section_name(&mut lines, take.groups.is_empty())? {
-        let group = section(&mut lines, &name, keep, &mut take)?;
-        take.groups.push(group);
+    let text = text::read(path, &mut take.notes)?;
+    let separator = numbers::separator(&text);
+    let mut rows = Rows::new(path, &text, separator, 1);
+    while let Some(name) = section_name(&mut rows, take.groups.is_empty())? {
+        let group = section(path, &mut rows, (separator, &name), keep, &mut take)?;
+        take.groups.extend(group);
     }
     match take.groups.is_empty() {
-        true => Err(no_such(path, lines.row, "there is no section of a Vicon export", "name another `format`")),
+        true => Err(no_such(path, rows.number, "there is no section of a Vicon export", "name another `format`")),
         false => {
             one_name_each(&mut take.groups);
             Ok(take)
@@ -59,44 +62,69 @@ fn one_name_each(groups: &mut [Group]) {
 }
 
 /// The next row that is not blank: the name of a section.
-fn section_name(lines: &mut Lines, first: bool) -> Result<Option<String>, DataError> {
-    while let Some(names) = lines.names(b',')? {
+fn section_name(rows: &mut Rows, first: bool) -> Result<Option<String>, DataError> {
+    while let Some(names) = next_names(rows)? {
         if !names[0].is_empty() {
             return Ok(Some(names[0].clone()));
         }
-        if first && lines.row > BEFORE {
+        if first && rows.number > BEFORE {
             break;
         }
     }
     Ok(None)
 }
 
-fn section(lines: &mut Lines, name: &str, keep: Keep, take: &mut Take) -> Result<Group, DataError> {
-    let path = lines.path.clone();
+/// A section of frames; none for one of another kind, such as events.
+fn section(
+    path: &Path,
+    rows: &mut Rows,
+    (separator, name): (char, &str),
+    keep: Keep,
+    take: &mut Take,
+) -> Result<Option<Group>, DataError> {
     let wrong =
-        |row, what: &str| no_such(&path, row, format!("section `{name}`: {what}"), "export the trial as CSV again");
-    let cut = |lines: &Lines| wrong(lines.row, "the file ends in its header");
-    let rate = lines.names(b',')?.ok_or_else(|| cut(lines))?;
-    let rate = rate[0].parse::<f64>().ok().filter(|rate| rate.is_finite() && *rate > 0.0);
-    let rate = rate.ok_or_else(|| wrong(lines.row, "its second row is no rate in Hz"))?;
-    let markers = lines.names(b',')?.ok_or_else(|| cut(lines))?;
-    let axes = lines.names(b',')?.ok_or_else(|| cut(lines))?;
-    if axes.len() < 3 || axes[0] != "Frame" || axes[1] != "Sub Frame" {
-        return Err(wrong(lines.row, "its fourth row does not begin with Frame,Sub Frame"));
+        |row, what: &str| no_such(path, row, format!("section `{name}`: {what}"), "export the trial as CSV again");
+    let next = |rows: &mut Rows| {
+        let names = next_names(rows)?;
+        names.ok_or_else(|| wrong(rows.number, "the file ends in its header"))
+    };
+    let rate = next(rows)?[0].replace(',', ".").parse::<f64>().ok().filter(|rate| rate.is_finite() && *rate > 0.0);
+    let rate = rate.ok_or_else(|| wrong(rows.number, "its second row is no rate in Hz"))?;
+    let markers = next(rows)?;
+    if !markers[0].is_empty() && markers[0] != "Frame" {
+        take.notes.push(format!("section `{name}` is skipped: it has no frames"));
+        skip(rows)?;
+        return Ok(None);
     }
-    let units = lines.names(b',')?.ok_or_else(|| cut(lines))?;
+    let axes = next(rows)?;
+    if axes.len() < 3 || axes[0] != "Frame" || axes[1] != "Sub Frame" {
+        return Err(wrong(rows.number, "its fourth row does not begin with Frame,Sub Frame"));
+    }
+    let units = next(rows)?;
     let columns = columns(&markers, &axes, &units, &mut take.notes);
-    let layout = Layout { separator: b',', lead: 2, columns, until_blank: true };
-    let rows = numbers::read(lines, layout, keep)?;
-    if rows.frames.is_empty() {
-        return Err(DataError::NoRows { path });
+    let read = numbers::read(path, rows, Layout { separator, lead: 2, columns, until_blank: true }, keep)?;
+    if read.frames.is_empty() {
+        return Err(DataError::NoRows { path: path.to_path_buf() });
     }
     take.notes.push(format!("section `{name}`: time is frame ÷ {rate} Hz, from frame 1"));
-    take.lost.extend(rows.lost.iter().cloned());
-    Ok(group(name, rate, rows))
+    take.notes.extend(read.notes.iter().cloned());
+    take.lost.extend(read.lost.iter().cloned());
+    Ok(Some(group(name, rate, read)))
 }
 
-fn group(name: &str, rate: f64, rows: Rows) -> Group {
+/// Skips the rows up to the next empty line.
+fn skip(rows: &mut Rows) -> Result<(), DataError> {
+    while rows.next()? {
+        let filled = width(&rows.record);
+        if rows.blank > 0 || filled == 0 {
+            rows.held = filled > 0;
+            break;
+        }
+    }
+    Ok(())
+}
+
+fn group(name: &str, rate: f64, rows: Table) -> Group {
     let samples_a_frame = 1.0 + rows.seconds.iter().copied().fold(0.0, f64::max);
     let sub = |i: usize| if rows.seconds[i].is_nan() { 0.0 } else { rows.seconds[i] };
     let time: Vec<f64> =
@@ -112,7 +140,7 @@ fn group(name: &str, rate: f64, rows: Rows) -> Group {
 fn columns(markers: &[String], axes: &[String], units: &[String], notes: &mut Vec<String>) -> Vec<Column> {
     let (mut columns, mut marker) = (Vec::new(), String::new());
     let mut strange = std::collections::BTreeSet::new();
-    for at in 2..super::lines::without_empty_end(axes.to_vec()).len() {
+    for at in 2..without_empty_end(axes.to_vec()).len() {
         if let Some(name) = markers.get(at).filter(|name| !name.is_empty()) {
             marker = name.replace(':', ".");
         }

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use regex::Regex;
 
 use crate::ingest::recording::{TimeColumn, Wanted};
+use crate::join::Rule;
 use crate::manifest::Manifest;
 use crate::units::{Dimension, Unit};
 
@@ -32,8 +33,15 @@ pub(crate) struct Layout {
     pub joined: bool,
     /// Outputs are markers with three coordinates each.
     pub markers: bool,
+    /// Period of each column of a table that is unwrapped, in its unit.
+    pub periods: BTreeMap<String, f64>,
+    /// Quaternions of a table whose sign is kept.
+    pub quaternions: Vec<[String; 4]>,
+    /// How missing values of inputs are filled, by column.
+    pub fill: BTreeMap<String, Rule>,
     time_column: Option<TimeColumn>,
-    separator: u8,
+    separator: Option<char>,
+    decimal: Option<char>,
 }
 
 /// How a sample gets its time.
@@ -89,6 +97,7 @@ impl Layout {
         let counts = matches!(clock, Clock::Numbers(..));
         let column = |column: &String| TimeColumn { column: column.clone(), unit: time.unit.clone(), counts };
         let time_column = time.column.as_ref().map(column);
+        let inputs = manifest.actuator.iter().chain(&manifest.context);
         let name = match (&manifest.table.trial.column, &manifest.table.trial.file) {
             (Some(column), _) => Naming::Column(column.clone()),
             (None, Some(pattern)) => Naming::File(Regex::new(pattern).ok()?),
@@ -104,8 +113,12 @@ impl Layout {
             name,
             joined,
             markers: manifest.has_markers(),
+            periods: if joined { BTreeMap::new() } else { manifest.periods() },
+            quaternions: manifest.table.quaternions.clone(),
+            fill: inputs.filter_map(|signal| Some((signal.column.clone(), signal.fill?))).collect(),
             time_column,
-            separator: manifest.table.separator.as_deref().and_then(|s| s.bytes().next()).unwrap_or(b','),
+            separator: manifest.table.separator.as_deref().and_then(|s| s.chars().next()),
+            decimal: manifest.table.decimal.as_deref().and_then(|s| s.chars().next()),
         })
     }
 
@@ -116,13 +129,13 @@ impl Layout {
             numbers.insert(source.column.clone(), true);
         }
         for source in self.actuators.iter().chain(&self.context).chain(&self.predicted).chain(self.time.source()) {
-            numbers.insert(source.column.clone(), false);
+            numbers.insert(source.column.clone(), self.fill.contains_key(&source.column));
         }
         let label = match &self.name {
             Naming::Column(column) => Some(column.clone()),
             _ => None,
         };
-        Wanted { numbers, label, time: self.time_column.clone(), separator: self.separator }
+        Wanted { numbers, label, time: self.time_column.clone(), separator: self.separator, decimal: self.decimal }
     }
 
     /// Every signal that belongs to a sample, without its time.

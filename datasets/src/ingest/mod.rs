@@ -5,6 +5,8 @@
 pub(crate) mod cut;
 pub(crate) mod layout;
 pub mod locate;
+pub(crate) mod periodic;
 pub(crate) mod recording;
 pub(crate) mod split;
+pub(crate) mod stamps;
 pub(crate) mod stream;

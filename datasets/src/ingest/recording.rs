@@ -1,21 +1,21 @@
 //! One data file as columns of numbers, before they are interpreted.
 //!
-//! CSV and Parquet are read by polars into the same [`Recording`]: each wanted column is an `f64` vector in the file's
-//! own unit, and NaN stands for an empty cell (a NaN that the file itself contains is a problem, not an empty cell). Time
-//! of a type of its own stays in whole ticks.
+//! CSV and Parquet are read into the same [`Recording`]: each wanted column is an `f64` vector in the file's own unit, and NaN
+//! stands for a missing value. Dates and columns of a type of time stay in whole ticks.
 
 mod cells;
 mod content;
-mod csv;
-pub(crate) mod dialect;
+pub(crate) mod csv;
 mod header;
 mod numbers;
 mod parquet;
 mod ticks;
 mod written;
 
+pub(crate) use cells::Texts;
 pub(crate) use content::Content;
 pub(crate) use header::visible;
+pub(crate) use numbers::{Missing, numbers_of, spelled};
 pub(crate) use parquet::{check_claims, check_ends, columns, guarded};
 pub(crate) use ticks::{TickType, Ticks};
 
@@ -23,12 +23,15 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use cells::Cells;
+use csv::Csv;
+use csv::decimal::Decimal;
 use parquet::ParquetFile;
 
 use crate::error::DataError;
+use crate::formats::{Format, recognise};
 
 /// The wanted columns of one file.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub(crate) struct Recording {
     /// The file.
     pub path: PathBuf,
@@ -38,8 +41,12 @@ pub(crate) struct Recording {
     pub first_row: usize,
     /// Row numbers of the first samples, which were carried over from the piece before.
     pub carried: Vec<usize>,
-    /// Numbers by column; NaN is an empty cell.
+    /// Numbers by column; NaN is a missing value.
     pub numbers: BTreeMap<String, Vec<f64>>,
+    /// Spellings of missing values.
+    pub missing: Missing,
+    /// Recognised properties.
+    pub notes: Vec<String>,
     /// The column of time, where its type is one of time.
     pub ticks: Option<Ticks>,
     /// The column of trial names.
@@ -49,7 +56,7 @@ pub(crate) struct Recording {
 }
 
 /// Columns to read from a file.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub(crate) struct Wanted {
     /// Columns of numbers, and whether a cell may be empty.
     pub numbers: BTreeMap<String, bool>,
@@ -57,8 +64,10 @@ pub(crate) struct Wanted {
     pub label: Option<String>,
     /// Column of time, where the manifest names one.
     pub time: Option<TimeColumn>,
-    /// Separator of CSV cells.
-    pub separator: u8,
+    /// Separator of CSV cells; recognised if it is omitted.
+    pub separator: Option<char>,
+    /// Decimal separator of CSV, a comma or a point; recognised if it is omitted.
+    pub decimal: Option<char>,
 }
 
 /// The column of time, as the manifest has it.
@@ -82,21 +91,26 @@ pub(crate) struct DataFile<'a> {
 }
 
 enum Kind {
-    /// One piece, and the row of its first sample.
-    Csv(Vec<u8>, usize),
+    /// One piece.
+    Csv(Csv),
     /// As many as its groups of rows make.
     Parquet(ParquetFile),
 }
 
 impl<'a> DataFile<'a> {
-    /// Opens a file; the second is the SHA-256 of all of it, if requested.
-    pub fn open(path: &Path, wanted: &'a Wanted, hashed: bool) -> Result<(Self, Option<Vec<u8>>), DataError> {
-        let csv = is(path, "csv");
-        let content = if csv { Content::held(path)? } else { Content::of(path)? };
+    /// Opens a file, of a format if it is known; the second is the SHA-256 of all of it, if requested.
+    pub fn open(
+        path: &Path,
+        format: Option<Format>,
+        wanted: &'a Wanted,
+        hashed: bool,
+    ) -> Result<(Self, Option<Vec<u8>>), DataError> {
+        let format = if format.is_none() { recognise(path)? } else { format };
+        let content = if format == Some(Format::Csv) { Content::held(path)? } else { Content::of(path)? };
         let digest = if hashed { Some(content.digest()) } else { None };
         let digest = digest.transpose().map_err(|e| DataError::file_system("read", path, &e))?;
         let mut problems = Vec::new();
-        let kind = Kind::of(path, content, wanted, &mut problems)?;
+        let kind = Kind::of(path, format, content, wanted, &mut problems)?;
         let spoiled = !problems.is_empty();
         Ok((Self { path: path.to_path_buf(), wanted, kind, problems, spoiled }, digest))
     }
@@ -109,15 +123,31 @@ impl<'a> DataFile<'a> {
     /// The type of the column of time, where it has one of its own.
     pub fn time_type(&self) -> Option<&TickType> {
         match &self.kind {
-            Kind::Csv(..) => None,
+            Kind::Csv(_) => None,
             Kind::Parquet(file) => file.time_type(self.wanted),
+        }
+    }
+
+    /// Recognised properties.
+    pub fn notes(&self) -> &[String] {
+        match &self.kind {
+            Kind::Csv(csv) => &csv.notes,
+            Kind::Parquet(_) => &[],
+        }
+    }
+
+    /// Units by column, if the file says them.
+    pub fn units(&self) -> BTreeMap<String, String> {
+        match &self.kind {
+            Kind::Csv(csv) => csv.units.clone().unwrap_or_default(),
+            Kind::Parquet(_) => BTreeMap::new(),
         }
     }
 
     /// How many pieces it has.
     pub fn pieces(&self) -> usize {
         match &self.kind {
-            Kind::Csv(..) => 1,
+            Kind::Csv(_) => 1,
             Kind::Parquet(file) => file.pieces.len(),
         }
     }
@@ -137,15 +167,15 @@ impl<'a> DataFile<'a> {
         let before = problems.len();
         let mut gathered = Gathered::new(&self.path, self.first_row(piece), wanted);
         let read = match &self.kind {
-            Kind::Csv(bytes, first_row) => {
-                csv::read(&self.path, bytes.clone(), *first_row, wanted, problems).map(|columns| {
-                    columns.cells.iter().for_each(|(name, cells)| gathered.take(name, cells, problems));
-                    columns.rows
-                })
-            }
-            Kind::Parquet(file) => {
-                file.read(&file.pieces[piece], wanted, &mut |name, cells| gathered.take(name, cells, problems))
-            }
+            Kind::Csv(csv) => csv.read(wanted, problems).map(|columns| {
+                let decimal = columns.decimal;
+                columns.cells.iter().for_each(|(name, cells)| gathered.take(name, cells, decimal, problems));
+                gathered.recording.notes = columns.notes;
+                columns.rows
+            }),
+            Kind::Parquet(file) => file.read(&file.pieces[piece], wanted, &mut |name, cells| {
+                gathered.take(name, cells, Decimal::default(), problems);
+            }),
         };
         match read {
             Ok(0) => {
@@ -166,18 +196,29 @@ impl<'a> DataFile<'a> {
     /// The number of a piece's first row.
     fn first_row(&self, piece: usize) -> usize {
         match &self.kind {
-            Kind::Csv(_, first_row) => *first_row,
+            Kind::Csv(csv) => csv.first_row(),
             Kind::Parquet(file) => 1 + file.pieces[piece].rows.start,
         }
     }
 }
 
 impl Kind {
-    fn of(path: &Path, content: Content, wanted: &Wanted, problems: &mut Vec<DataError>) -> Result<Self, DataError> {
-        match content {
-            Content::Held(bytes) if is(path, "csv") => Ok(Self::Csv(bytes, 2)),
-            content if is(path, "parquet") => ParquetFile::open(path, content, wanted, problems).map(Self::Parquet),
-            _ => Err(match packed(path) {
+    fn of(
+        path: &Path,
+        format: Option<Format>,
+        content: Content,
+        wanted: &Wanted,
+        problems: &mut Vec<DataError>,
+    ) -> Result<Self, DataError> {
+        match (format, content) {
+            (Some(Format::Csv), Content::Held(bytes)) => Csv::new(path, bytes, wanted).map(Self::Csv),
+            (Some(Format::Parquet), content) => ParquetFile::open(path, content, wanted, problems).map(Self::Parquet),
+            (Some(other), _) => Err(DataError::Usage(format!(
+                "{}: this is a recording of format {name}, and a table is wanted; declare it as [[source]] with format = {name:?}",
+                path.display(),
+                name = other.name(),
+            ))),
+            (None, _) => Err(match packed(path) {
                 Some(how) => DataError::Packed { path: path.to_path_buf(), how },
                 None => DataError::UnknownExtension { path: path.to_path_buf() },
             }),
@@ -209,30 +250,24 @@ pub(crate) fn packed(path: &Path) -> Option<&'static str> {
 
 /// Reads all of a file; what is wrong with it goes to `problems`, and then there is none.
 pub(crate) fn read(path: &Path, wanted: &Wanted, problems: &mut Vec<DataError>) -> Option<Recording> {
-    let mut whole: Option<Recording> = None;
-    let opened = DataFile::open(path, wanted, false).map_err(|error| problems.extend(error.problems()));
-    let (mut file, _) = opened.ok()?;
-    problems.extend(file.take_problems());
-    for piece in 0..file.pieces() {
-        let recording = file.read(piece, problems)?;
-        whole = Some(match whole {
-            Some(before) => before.followed_by(recording),
-            None => recording,
-        });
-    }
-    whole.filter(|recording| !recording.spoiled)
+    let opened = DataFile::open(path, None, wanted, false).map_err(|error| problems.extend(error.problems()));
+    opened.ok()?.0.whole(problems)
 }
 
-/// Reads a CSV that was brought to the one form; what is wrong with it goes to `problems`, and then there is none.
-pub(crate) fn read_plain(
-    path: &Path,
-    plain: dialect::Plain,
-    wanted: &Wanted,
-    problems: &mut Vec<DataError>,
-) -> Option<Recording> {
-    let (path, kind) = (path.to_path_buf(), Kind::Csv(plain.bytes, plain.first_row));
-    let file = DataFile { path, wanted, kind, problems: Vec::new(), spoiled: false };
-    file.read(0, problems).filter(|recording| !recording.spoiled)
+impl DataFile<'_> {
+    /// Reads all of it; what is wrong with it goes to `problems`, and then there is none.
+    pub fn whole(mut self, problems: &mut Vec<DataError>) -> Option<Recording> {
+        problems.extend(self.take_problems());
+        let mut whole: Option<Recording> = None;
+        for piece in 0..self.pieces() {
+            let recording = self.read(piece, problems)?;
+            whole = Some(match whole {
+                Some(before) => before.followed_by(recording),
+                None => recording,
+            });
+        }
+        whole.filter(|recording| !recording.spoiled)
+    }
 }
 
 impl Recording {
@@ -254,8 +289,14 @@ impl Recording {
         if let (Some(ticks), Some(more)) = (&mut self.ticks, next.ticks) {
             ticks.values.extend(more.values);
         }
+        next.missing.into_iter().for_each(|(cell, count)| *self.missing.entry(cell).or_insert(0) += count);
         let spoiled = self.spoiled || next.spoiled;
         Recording { rows: self.rows + next.rows, first_row: next.first_row, spoiled, ..self }
+    }
+
+    /// Recognised properties, and how missing values are spelled.
+    pub fn said(&self) -> Vec<String> {
+        self.notes.iter().cloned().chain(spelled(&self.missing)).collect()
     }
 
     /// Some of the samples, which are then carried over.
@@ -269,6 +310,8 @@ impl Recording {
             numbers: self.numbers.iter().map(|(name, values)| (name.clone(), pick(values))).collect(),
             ticks: self.ticks.as_ref().map(|ticks| ticks.select(samples)),
             labels: self.labels.as_ref().map(|labels| samples.iter().map(|i| labels[*i].clone()).collect()),
+            missing: Missing::new(),
+            notes: Vec::new(),
             spoiled: self.spoiled,
         }
     }
@@ -282,18 +325,18 @@ struct Gathered<'a> {
 
 impl<'a> Gathered<'a> {
     fn new(path: &Path, first_row: usize, wanted: &'a Wanted) -> Self {
-        let (path, numbers, carried) = (path.to_path_buf(), BTreeMap::new(), Vec::new());
-        let recording =
-            Recording { path, rows: 0, first_row, carried, numbers, ticks: None, labels: None, spoiled: false };
+        let recording = Recording { path: path.to_path_buf(), first_row, ..Recording::default() };
         Self { wanted, recording }
     }
 
     /// A column becomes numbers, ticks of time or names of trials, whatever is wanted of it.
-    fn take(&mut self, name: &str, cells: &Cells, problems: &mut Vec<DataError>) {
+    fn take(&mut self, name: &str, cells: &Cells, decimal: Decimal, problems: &mut Vec<DataError>) {
         let (wanted, may_be_empty) = (self.wanted, self.wanted.numbers.get(name).copied());
         let time = wanted.time.as_ref().is_some_and(|time| time.column == name);
         let (path, first_row) = (&self.recording.path, self.recording.first_row);
-        let column = numbers::Column { path, name, first_row, may_be_empty: may_be_empty.unwrap_or(false), time };
+        let may_be_absent = may_be_empty.unwrap_or(false);
+        let row = |i: usize| first_row + i;
+        let column = numbers::Column { path, name, row: &row, may_be_empty: may_be_absent, time, decimal };
         if wanted.label.as_deref() == Some(name) {
             self.recording.labels = Some(column.labels(cells, problems));
         }
@@ -304,7 +347,7 @@ impl<'a> Gathered<'a> {
                 self.recording.ticks = Some(Ticks { kind: kind.clone(), values: values.clone() });
             }
             (cells, _) => {
-                let values = column.read(cells, problems);
+                let values = column.read(cells, &mut self.recording.missing, problems);
                 self.recording.numbers.insert(name.to_string(), values);
             }
         }

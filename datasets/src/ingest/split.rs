@@ -1,14 +1,17 @@
 //! Splitting of a recording into trials: rows are grouped by name, time is checked, lost markers are skipped, units become SI.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
-use std::mem::discriminant;
 use std::path::Path;
 
 use nalgebra::DMatrix;
 
-use crate::error::{DataError, More};
+use crate::error::DataError;
 use crate::ingest::layout::{Layout, Naming, Source};
+use crate::ingest::periodic::{align_signs, unwrap};
 use crate::ingest::recording::Recording;
+use crate::ingest::stamps::Stamps;
+use crate::join::{Onto, Series, resample};
 use crate::manifest::Role;
 use crate::trial::{DropReason, Trial};
 
@@ -62,6 +65,7 @@ pub(crate) fn trial(
     problems: &mut Vec<DataError>,
 ) -> Option<Whole> {
     let before = problems.len();
+    let recording = &corrected(recording, rows, layout);
     let time = seconds(recording, rows, layout);
     check_time(recording, rows, &time, layout, problems);
     if recording.spoiled || problems.len() > before {
@@ -85,6 +89,38 @@ pub(crate) fn trial(
         file: file.to_path_buf(),
     };
     Some(Whole { trial, rows: rows.iter().map(|row| recording.row(*row)).collect() })
+}
+
+/// The recording with angles and counters of these rows unwrapped, the signs of quaternions kept, and inputs filled.
+fn corrected<'r>(recording: &'r Recording, rows: &[usize], layout: &Layout) -> Cow<'r, Recording> {
+    if layout.periods.is_empty() && layout.quaternions.is_empty() && layout.fill.is_empty() {
+        return Cow::Borrowed(recording);
+    }
+    let mut own = recording.clone();
+    let of_rows = |own: &Recording, column: &String| {
+        own.numbers.get(column).map(|cells| rows.iter().map(|row| cells[*row]).collect::<Vec<f64>>())
+    };
+    let write = |own: &mut Recording, column: &String, values: &[f64]| {
+        let Some(cells) = own.numbers.get_mut(column) else { return };
+        rows.iter().zip(values).for_each(|(row, value)| cells[*row] = *value);
+    };
+    for (column, period) in &layout.periods {
+        let Some(mut values) = of_rows(&own, column) else { continue };
+        unwrap(&mut values, *period);
+        write(&mut own, column, &values);
+    }
+    for four in &layout.quaternions {
+        let mut values = four.each_ref().map(|column| of_rows(&own, column).unwrap_or_default());
+        align_signs(&mut values);
+        four.iter().zip(&values).for_each(|(column, values)| write(&mut own, column, values));
+    }
+    let time = seconds(&own, rows, layout);
+    for (column, rule) in &layout.fill {
+        let Some(values) = of_rows(&own, column) else { continue };
+        let onto = Onto { times: &time, step: 0.0, gap: f64::INFINITY, rule: *rule };
+        write(&mut own, column, &resample(&Series::new(&time, &values), &onto));
+    }
+    Cow::Owned(own)
 }
 
 /// Time of the samples, s; NaN where it cannot be read.
@@ -114,7 +150,7 @@ fn present(recording: &Recording, rows: &[usize], layout: &Layout) -> (Vec<usize
         sources.iter().filter_map(|s| recording.numbers.get(&s.column)).collect()
     };
     let (measured, vehicle) = (columns(&layout.measured), columns(&layout.vehicle));
-    let inputs = match layout.joined {
+    let inputs = match layout.joined || !layout.fill.is_empty() {
         true => [columns(&layout.actuators), columns(&layout.context), columns(&layout.predicted)].concat(),
         false => Vec::new(),
     };
@@ -134,29 +170,21 @@ fn present(recording: &Recording, rows: &[usize], layout: &Layout) -> (Vec<usize
     (kept, dropped)
 }
 
-/// Checks that time increases from row to row. Of each kind of violation the first is reported, with the rows of the others.
+/// Checks that time increases from row to row.
 fn check_time(recording: &Recording, rows: &[usize], time: &[f64], layout: &Layout, problems: &mut Vec<DataError>) {
     let Some(source) = layout.time.source() else { return };
-    let mut found = Vec::<DataError>::new();
-    let readable: Vec<usize> = (0..rows.len()).filter(|i| time[*i].is_finite()).collect();
-    for pair in readable.windows(2).filter(|pair| time[pair[1]] <= time[pair[0]]) {
-        let (before, at) = (time[pair[0]], time[pair[1]]);
-        let (path, column, row) = (recording.path.clone(), source.column.clone(), recording.row(rows[pair[1]]));
-        let more = More::default();
-        let problem = if at < before {
-            DataError::TimeReversed { path, row, column, before, after: at, more }
-        } else if repeats(recording, rows[pair[0]], rows[pair[1]], layout) {
-            DataError::DuplicateRow { path, row, column, first: recording.row(rows[pair[0]]), at, more }
-        } else {
-            DataError::TimeStill { path, row, column, at, more }
-        };
-        let alike = |other: &&mut DataError| discriminant(*other) == discriminant(&problem);
-        match found.iter_mut().find(alike).and_then(DataError::more) {
-            Some(more) => more.add(row),
-            None => found.push(problem),
-        }
-    }
-    problems.extend(found);
+    let raw = recording.numbers.get(&source.column).filter(|_| recording.ticks.is_none());
+    let stamps = Stamps {
+        path: &recording.path,
+        column: &source.column,
+        time,
+        raw: raw.map(Vec::as_slice),
+        ticks: recording.ticks.as_ref(),
+        row: &|i| recording.row(rows[i]),
+        index: &|i| rows[i],
+        repeats: &|first, second| repeats(recording, rows[first], rows[second], layout),
+    };
+    problems.extend(stamps.check());
 }
 
 fn repeats(recording: &Recording, first: usize, second: usize, layout: &Layout) -> bool {

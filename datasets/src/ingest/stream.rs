@@ -8,7 +8,7 @@
 //! So a trial may lie anywhere in a file, also between the rows of others, and no more is held than a piece and the
 //! trials that are open at its end.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use std::path::Path;
 
@@ -48,12 +48,24 @@ pub(crate) struct FileTrials<'a> {
     carried: Option<Recording>,
     /// Names of trials with a problem.
     refused: Vec<String>,
+    /// Recognised properties of the pieces that were read.
+    said: BTreeSet<String>,
 }
 
 impl<'a> FileTrials<'a> {
     /// The trials that begin in piece `first` or later.
     pub fn new(file: DataFile<'a>, name: &'a Path, layout: &'a Layout, spans: Spans, first: usize) -> Self {
-        Self { file, name, layout, spans, first, next: first, carried: None, refused: Vec::new() }
+        Self {
+            file,
+            name,
+            layout,
+            spans,
+            first,
+            next: first,
+            carried: None,
+            refused: Vec::new(),
+            said: BTreeSet::new(),
+        }
     }
 
     /// The piece that is read next.
@@ -76,9 +88,9 @@ impl<'a> FileTrials<'a> {
         std::mem::take(&mut self.refused)
     }
 
-    /// Which pieces hold which trial.
-    pub fn into_spans(self) -> Spans {
-        self.spans
+    /// Which pieces hold which trial, and the recognised properties of the file.
+    pub fn into_spans(self) -> (Spans, Vec<String>) {
+        (self.spans, self.file.notes().iter().cloned().chain(self.said).collect())
     }
 
     /// Reads a piece and returns the trials that end in it; `None` after the last.
@@ -90,6 +102,7 @@ impl<'a> FileTrials<'a> {
         self.next += 1;
         let before = self.carried.take();
         let Some(read) = read else { return Some(Vec::new()) };
+        self.said.extend(read.said());
         let all = match before {
             Some(before) => before.followed_by(read),
             None => read,

@@ -5,7 +5,8 @@ use std::path::Path;
 
 use crate::error::DataError;
 use crate::formats::{self, Format, Keep};
-use crate::ingest::recording::dialect::{self, Told};
+use crate::ingest::recording::Wanted;
+use crate::ingest::recording::csv::Csv;
 
 /// Files that look alike.
 pub(super) struct Found {
@@ -88,10 +89,9 @@ fn columns(path: &Path, format: Format) -> Result<Vec<(String, Option<String>)>,
     match format {
         Format::Csv => {
             let bytes = std::fs::read(path).map_err(|e| DataError::file_system("read", path, &e))?;
-            let plain = dialect::plain(path, bytes, &Told::default())?;
-            let text = String::from_utf8_lossy(&plain.bytes);
-            let names = text.lines().next().unwrap_or_default().split(',').map(|name| name.trim().to_string());
-            Ok(names.map(|name| (name.clone(), plain.units.get(&name).cloned())).collect())
+            let Csv { names, units, .. } = Csv::new(path, bytes, &Wanted::default())?;
+            let units = units.unwrap_or_default();
+            Ok(names.into_iter().map(|name| (name.clone(), units.get(&name).cloned())).collect())
         }
         Format::Parquet => Ok(Vec::new()),
         _ => {

@@ -23,7 +23,7 @@ pub use clock::align::{Alignment, How};
 pub use clock::estimate::{Estimate, Refusal, Request, estimate};
 pub(crate) use plan::Plan;
 pub use quality::Quality;
-pub use resample::{Onto, Rule, resample, slerp, unwrap};
+pub use resample::{Onto, Rule, resample, slerp};
 pub use series::Series;
 pub use view::Line;
 pub use write::write;

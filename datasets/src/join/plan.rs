@@ -8,10 +8,11 @@ use rayon::prelude::*;
 
 use super::clock::align::{Alignment, Both, How, align};
 use super::files;
-use super::resample::unwrap;
 use super::series::median;
-use super::signals::{self, Signals};
+use super::signals::{self, Axis, Signals};
+use crate::checks::periodic::{self, Column, Place};
 use crate::error::{DataError, Problems};
+use crate::ingest::periodic::unwrap;
 use crate::manifest::{Manifest, Source, Word};
 use crate::toml_file::TomlSource;
 use crate::units::Unit;
@@ -31,7 +32,7 @@ pub(crate) struct Plan {
     pub(super) axis: String,
     /// Unit of each signal in the manifest, by its full name.
     units: BTreeMap<String, String>,
-    /// A full turn of each angle, by its full name.
+    /// Period of each angle and counter, by its full name.
     periods: BTreeMap<String, f64>,
     /// Name and files of each trial, a file for each source.
     trials: Vec<(String, Vec<PathBuf>)>,
@@ -41,6 +42,8 @@ pub(crate) struct Plan {
     pub(super) aligned: Vec<Option<Vec<Alignment>>>,
     /// Recognized properties of the files.
     pub notes: Vec<String>,
+    /// Signals that jump by a period.
+    pub warnings: Vec<String>,
     /// Place of each source in the manifest.
     places: Vec<String>,
 }
@@ -57,17 +60,14 @@ impl Plan {
         let first =
             of_source(&sources[reference], &outputs).into_iter().chain(signals[reference].iter().cloned()).next();
         let axis = first.and_then(|full| sources[reference].column(&full).map(str::to_string)).unwrap_or_default();
-        let period = |s: &Source, column: &String| {
-            Some((format!("{}.{column}", s.name), manifest.angle_period(&s.name, column)?))
-        };
-        let periods = sources.iter().flat_map(|s| s.angles.iter().filter_map(|c| period(s, c))).collect();
+        let periods = manifest.periods();
         let units = manifest.signal_columns().into_iter().map(|(_, _, column, unit)| (column, unit)).collect();
         let places: Vec<String> =
             (0..sources.len()).map(|i| toml.place(&["source", &i.to_string(), "offset"])).collect();
         let trials = files::trials(&sources, reference, folder, &places, problems);
         let (shared, aligned) = (sources.iter().map(|_| OnceLock::new()).collect(), Vec::new());
         let folder = folder.to_path_buf();
-        let notes = Vec::new();
+        let (notes, warnings) = (Vec::new(), Vec::new());
         Plan {
             folder,
             sources,
@@ -81,6 +81,7 @@ impl Plan {
             shared,
             aligned,
             notes,
+            warnings,
             places,
         }
     }
@@ -107,8 +108,9 @@ impl Plan {
         let mut notes = BTreeSet::new();
         for found in found {
             match found {
-                Ok((alignments, of_trial)) => {
+                Ok((alignments, of_trial, warnings)) => {
                     self.aligned.push(Some(alignments));
+                    self.warnings.extend(warnings);
                     notes.extend(of_trial);
                 }
                 Err(error) => {
@@ -121,9 +123,10 @@ impl Plan {
         (0..self.sources.len()).for_each(|source| self.common(source));
     }
 
-    fn align_trial(&self, trial: usize) -> Result<(Vec<Alignment>, Vec<String>), DataError> {
+    /// How the clocks stand, notes and warnings.
+    fn align_trial(&self, trial: usize) -> Result<(Vec<Alignment>, Vec<String>, Vec<String>), DataError> {
         let signals = self.read_signals(trial)?;
-        let notes = self.notes_of(trial, &signals);
+        let (notes, warnings) = (self.notes_of(trial, &signals), self.jumps(trial, &signals));
         let reference = &signals[self.reference];
         let start = reference.columns.get(&self.axis).and_then(|(axis, _)| reference.axes[*axis].time.first());
         let (name, mut alignments, mut problems) =
@@ -138,28 +141,47 @@ impl Plan {
                 }
             }
         }
-        Problems(problems).into_result().map(|()| (alignments, notes))
+        Problems(problems).into_result().map(|()| (alignments, notes, warnings))
+    }
+
+    /// Columns that jump by a period and are not declared as periodic.
+    fn jumps(&self, trial: usize, signals: &[Arc<Signals>]) -> Vec<String> {
+        let (name, files) = &self.trials[trial];
+        let of_source = |(i, source): (usize, &Source)| {
+            let undeclared = |column: &&String| {
+                let full = format!("{}.{column}", source.name);
+                !self.periods.contains_key(&full) && !source.quaternions.iter().flatten().any(|part| part == *column)
+            };
+            let of_axis = |(axis, of): (usize, &Axis)| {
+                let names = signals[i].columns.iter().filter(|(_, (own, _))| *own == axis).map(|(name, _)| name);
+                let column = |name: &'_ String| {
+                    let unit =
+                        self.units.get(&format!("{}.{name}", source.name)).and_then(|unit| Unit::parse(unit).ok());
+                    (name.clone(), unit)
+                };
+                let named: Vec<(String, Option<Unit>)> = names.filter(undeclared).map(column).collect();
+                let values = |name: &String| signals[i].columns.get(name).map_or(&[][..], |(_, values)| values);
+                let columns: Vec<Column> =
+                    named.iter().map(|(name, unit)| Column { name, unit: *unit, values: values(name) }).collect();
+                let (row, table) = (|i: usize| of.first_row + i, format!("[[source]] `{}`", source.name));
+                periodic::warnings(&columns, &Place { file: &files[i], trial: name, table, row: &row })
+            };
+            signals[i].axes.iter().enumerate().flat_map(of_axis).collect::<Vec<String>>()
+        };
+        self.sources.iter().enumerate().flat_map(of_source).collect()
     }
 
     /// Columns whose file says another unit than the manifest.
     fn other_units(&self, trial: usize, signals: &[Arc<Signals>]) -> Vec<DataError> {
-        let mut problems = Vec::new();
-        for (i, source) in self.sources.iter().enumerate() {
-            for (column, written) in &signals[i].units {
-                let Some(told) = self.units.get(&format!("{}.{column}", source.name)) else { continue };
-                let same = |a: Unit, b: Unit| a.dimension == b.dimension && a.factor() == b.factor();
-                let (Ok(a), Ok(b)) = (Unit::parse(written), Unit::parse(told)) else { continue };
-                if !same(a, b) {
-                    let what = format!(
-                        "the file has column `{column}` in {written:?}, and the manifest in {told:?}; correct the unit"
-                    );
-                    let (at, of) =
-                        (self.folder.join(&self.trials[trial].1[i]).display().to_string(), source.name.clone());
-                    problems.push(DataError::Unjoined { at, trial: self.trials[trial].0.clone(), of, what });
-                }
-            }
-        }
-        problems
+        let of_source = |(i, source): (usize, &Source)| {
+            let path = self.folder.join(&self.trials[trial].1[i]);
+            let check = |(column, written): (&String, &String)| {
+                let told = self.units.get(&format!("{}.{column}", source.name))?;
+                DataError::other_unit(&path, column, Some(written), told)
+            };
+            signals[i].units.iter().filter_map(check).collect::<Vec<_>>()
+        };
+        self.sources.iter().enumerate().flat_map(of_source).collect()
     }
 
     /// The columns that an estimate compares, by their names in the files.
@@ -218,11 +240,8 @@ impl Plan {
 
     fn unwrapped(&self, source: &Source, mut signals: Signals) -> Signals {
         for (column, (_, values)) in &mut signals.columns {
-            let Some(period) = self.periods.get(&format!("{}.{column}", source.name)) else { continue };
-            let present: Vec<usize> = (0..values.len()).filter(|i| values[*i].is_finite()).collect();
-            let mut kept: Vec<f64> = present.iter().map(|i| values[*i]).collect();
-            unwrap(&mut kept, *period);
-            present.iter().zip(kept).for_each(|(i, value)| values[*i] = value);
+            let period = self.periods.get(&format!("{}.{column}", source.name));
+            period.into_iter().for_each(|period| unwrap(values, *period));
         }
         signals
     }

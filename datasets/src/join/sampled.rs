@@ -8,6 +8,7 @@ use super::series::Series;
 use super::signals::Signals;
 use crate::error::DataError;
 use crate::ingest::layout::JOINED_TIME;
+use crate::ingest::periodic::align_signs;
 use crate::ingest::recording::Recording;
 use crate::manifest::Source;
 
@@ -44,8 +45,7 @@ impl Plan {
         }
         let (path, rows) = (self.folder.join(self.trial(trial).1), time.len());
         numbers.insert(JOINED_TIME.to_string(), time);
-        let (carried, ticks, labels) = (Vec::new(), None, None);
-        Ok(Some(Recording { path, rows, first_row, carried, numbers, ticks, labels, spoiled: false }))
+        Ok(Some(Recording { path, rows, first_row, numbers, ..Recording::default() }))
     }
 }
 
@@ -74,5 +74,7 @@ fn quaternion(source: &Source, signals: &Signals, four: &[String; 4], onto: &Ont
     });
     let onto = with_gap(source, &series[0], Onto { ..*onto });
     let names = four.iter().map(|column| format!("{}.{column}", source.name));
-    names.zip(slerp(&series, &onto)).collect()
+    let mut turned = slerp(&series, &onto);
+    align_signs(&mut turned);
+    names.zip(turned).collect()
 }

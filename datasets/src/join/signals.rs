@@ -4,10 +4,11 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use super::series::Series;
-use crate::error::{DataError, More, Problems};
+use crate::error::{DataError, Problems};
 use crate::formats::{self, Format, Keep};
-use crate::ingest::recording::dialect::{self, Plain, Told};
-use crate::ingest::recording::{self, Content, TimeColumn, Wanted};
+use crate::ingest::periodic::unwrap;
+use crate::ingest::recording::{DataFile, Recording, Ticks, TimeColumn, Wanted};
+use crate::ingest::stamps::Stamps;
 use crate::manifest::{Source, Time};
 use crate::units::{Dimension, Unit};
 
@@ -51,16 +52,17 @@ pub fn read(path: &Path, source: &Source, columns: &BTreeSet<String>) -> Result<
     };
     match format.is_table() {
         true => table(path, source, format, columns),
-        false => take(path, source, format, columns),
+        false => take(path, format, columns),
     }
 }
 
 /// Motion capture and logs.
-fn take(path: &Path, source: &Source, format: Format, columns: &BTreeSet<String>) -> Result<Signals, DataError> {
+fn take(path: &Path, format: Format, columns: &BTreeSet<String>) -> Result<Signals, DataError> {
     let take = formats::read(path, format, Keep::Named(columns))?;
     let mut signals = Signals { format: Some(format), notes: take.notes.clone(), ..Signals::default() };
     signals.notes.extend(take.lost.iter().map(|what| format!("LOST: {what}")));
-    missing(path, columns, take.groups.iter().flat_map(|g| g.columns.iter().map(|c| c.name.as_str())))?;
+    let skipped: Vec<&str> = take.notes.iter().filter(|note| note.contains("skipped")).map(String::as_str).collect();
+    missing(path, columns, take.groups.iter().flat_map(|g| g.columns.iter().map(|c| c.name.as_str())), &skipped)?;
     for group in take.groups {
         let kept: Vec<formats::Column> = group.columns.into_iter().filter(|c| columns.contains(&c.name)).collect();
         if kept.is_empty() {
@@ -68,8 +70,8 @@ fn take(path: &Path, source: &Source, format: Format, columns: &BTreeSet<String>
         }
         let log = matches!(format, Format::Ulog | Format::Mcap);
         let order = increasing(&group.time);
-        if !log && order.len() < group.time.len() {
-            return Err(disordered(path, source, &group.time, group.first_row));
+        if !log {
+            check_order(path, "time", &group.time, None, None, &|i| group.first_row + i)?;
         }
         if order.len() < group.time.len() {
             let (name, count) = (&group.name, group.time.len() - order.len());
@@ -89,40 +91,37 @@ fn take(path: &Path, source: &Source, format: Format, columns: &BTreeSet<String>
 
 /// Tables, whose time the manifest names.
 fn table(path: &Path, source: &Source, format: Format, columns: &BTreeSet<String>) -> Result<Signals, DataError> {
-    let mut time = source.time.clone();
-    if time == Time::default() {
+    let time = &source.time;
+    if *time == Time::default() {
         let what = format!("it is a table ({}), and its time is not declared", format.name());
         let remedy = "write time = { column = \"t\", unit = \"s\" } or { rate_hz = 20.0 } in its [[source]]";
         return Err(DataError::BadText { path: path.to_path_buf(), row: 1, what, remedy });
     }
-    let mut counts =
+    let counts =
         time.unit.as_deref().and_then(|u| Unit::parse(u).ok()).is_some_and(|u| u.dimension == Dimension::Sample);
     let mut numbers: BTreeMap<String, bool> = columns.iter().map(|column| (column.clone(), true)).collect();
     numbers.extend(time.column.iter().map(|column| (column.clone(), false)));
     let column = |column: &String| TimeColumn { column: column.clone(), unit: time.unit.clone(), counts };
-    let mut wanted = Wanted { numbers, label: None, time: time.column.as_ref().map(column), separator: b',' };
-    let (mut problems, mut signals) = (Vec::new(), Signals { format: Some(format), ..Signals::default() });
-    let read = match format {
-        Format::Csv => {
-            let plain = plain(path, source)?;
-            signals.notes.clone_from(&plain.notes);
-            signals.units.clone_from(&plain.units);
-            if plain.instants {
-                time = Time { unit: None, rate_hz: None, ..time };
-                counts = false;
-                wanted.time.iter_mut().for_each(|time| time.unit = Some("s".into()));
-            }
-            clock_unit(path, &time, &plain)?;
-            recording::read_plain(path, plain, &wanted, &mut problems)
-        }
-        _ => recording::read(path, &wanted, &mut problems),
-    };
+    let first = |text: &Option<String>| text.as_deref().and_then(|text| text.chars().next());
+    let (separator, decimal) = (first(&source.separator), first(&source.decimal));
+    let wanted = Wanted { numbers, label: None, time: time.column.as_ref().map(column), separator, decimal };
+    let mut problems = Vec::new();
+    let (file, _) = DataFile::open(path, Some(format), &wanted, false)?;
+    let (units, notes) = (file.units(), file.notes().to_vec());
+    clock_unit(path, time, &units)?;
+    let mut signals = Signals { format: Some(format), units, notes, ..Signals::default() };
+    let read = file.whole(&mut problems);
     Problems(problems).into_result()?;
     let Some(mut read) = read else { return Err(DataError::NoRows { path: path.to_path_buf() }) };
-    let seconds = seconds(&read, &time, counts);
-    if increasing(&seconds).len() < seconds.len() {
-        return Err(disordered(path, source, &seconds, read.first_row));
+    signals.notes.extend(read.said());
+    let counter = time.column.as_ref().and_then(|column| Some((column, source.counters.get(column)?)));
+    if let Some((column, range)) = counter {
+        read.numbers.get_mut(column).into_iter().for_each(|values| unwrap(values, *range));
     }
+    let seconds = seconds(&read, time, counts);
+    let name = time.column.as_deref().unwrap_or("time");
+    let (raw, row) = (read.numbers.get(name).filter(|_| read.ticks.is_none()), |i| read.row(i));
+    check_order(path, name, &seconds, raw.map(Vec::as_slice), read.ticks.as_ref(), &row)?;
     signals.axes.push(Axis { time: seconds, first_row: read.first_row });
     for column in columns {
         let values = read.numbers.remove(column).unwrap_or_default();
@@ -131,31 +130,13 @@ fn table(path: &Path, source: &Source, format: Format, columns: &BTreeSet<String
     Ok(signals)
 }
 
-/// The file in the one form of CSV.
-fn plain(path: &Path, source: &Source) -> Result<Plain, DataError> {
-    let bytes = match Content::held(path)? {
-        Content::Held(bytes) => bytes,
-        Content::OnDisk(..) => Vec::new(),
-    };
-    let first = |text: &Option<String>| text.as_deref().and_then(|text| text.chars().next());
-    let (separator, decimal) = (first(&source.separator), first(&source.decimal));
-    dialect::plain(path, bytes, &Told { separator, decimal, time: source.time.column.clone() })
-}
-
 /// A row of units may say another unit of time than the manifest.
-fn clock_unit(path: &Path, time: &Time, plain: &Plain) -> Result<(), DataError> {
-    let of_row = time.column.as_ref().and_then(|column| plain.units.get(column));
-    match (of_row, &time.unit) {
-        (Some(row), Some(told)) if row != told && told != "sample" && !plain.instants => {
-            let what = format!("the row of units has the time in {row:?}, and the manifest in {told:?}");
-            let (path, remedy) = (path.to_path_buf(), "correct `time` in its [[source]], or the row");
-            Err(DataError::BadText { path, row: 2, what, remedy })
-        }
-        _ => Ok(()),
-    }
+fn clock_unit(path: &Path, time: &Time, units: &BTreeMap<String, String>) -> Result<(), DataError> {
+    let Some((column, unit)) = time.column.as_ref().zip(time.unit.as_ref()) else { return Ok(()) };
+    DataError::other_unit(path, column, units.get(column), unit).map_or(Ok(()), Err)
 }
 
-fn seconds(read: &recording::Recording, time: &Time, counts: bool) -> Vec<f64> {
+fn seconds(read: &Recording, time: &Time, counts: bool) -> Vec<f64> {
     if let Some(ticks) = &read.ticks {
         return ticks.seconds(&(0..read.rows).collect::<Vec<_>>());
     }
@@ -167,7 +148,7 @@ fn seconds(read: &recording::Recording, time: &Time, counts: bool) -> Vec<f64> {
         Some(unit) => unit.to_si(*value),
         None => *value,
     };
-    read.numbers.get(column).into_iter().flatten().map(to_seconds).collect() // instants are in seconds already
+    read.numbers.get(column).into_iter().flatten().map(to_seconds).collect()
 }
 
 /// Indices of the samples whose time is later than all before.
@@ -182,24 +163,34 @@ fn increasing(time: &[f64]) -> Vec<usize> {
         .collect()
 }
 
-fn disordered(path: &Path, source: &Source, time: &[f64], first_row: usize) -> DataError {
-    let mut wrong = (1..time.len()).filter(|i| !(time[*i] > time[*i - 1]));
-    let first = wrong.next().unwrap_or(1);
-    let mut more = More::default();
-    wrong.for_each(|i| more.add(first_row + i));
-    let (path, of, row) = (path.to_path_buf(), source.name.clone(), first_row + first);
-    DataError::SourceTime { path, of, row, before: time[first - 1], after: time[first], more }
+/// Time of a table increases.
+fn check_order(
+    path: &Path,
+    column: &str,
+    time: &[f64],
+    raw: Option<&[f64]>,
+    ticks: Option<&Ticks>,
+    row: &dyn Fn(usize) -> usize,
+) -> Result<(), DataError> {
+    let (index, repeats) = (&|i| i, &|_, _| false);
+    Problems(Stamps { path, column, time, raw, ticks, row, index, repeats }.check()).into_result()
 }
 
 /// Columns that the file does not have.
-fn missing<'a>(path: &Path, columns: &BTreeSet<String>, known: impl Iterator<Item = &'a str>) -> Result<(), DataError> {
+fn missing<'a>(
+    path: &Path,
+    columns: &BTreeSet<String>,
+    known: impl Iterator<Item = &'a str>,
+    skipped: &[&str],
+) -> Result<(), DataError> {
     let known: Vec<&str> = known.collect();
     let problem = |column: &String| {
         let meant = crate::text::spelling::meant(column, known.iter().copied());
         let meant = meant.map_or(String::new(), |name| format!(" (did you mean `{name}`?)"));
         let first: Vec<String> = known.iter().take(40).map(|name| format!("`{name}`")).collect();
         let more = if known.len() > 40 { format!(" and {} more", known.len() - 40) } else { String::new() };
-        let known = first.join(" ") + &more + &meant;
+        let skipped = if skipped.is_empty() { String::new() } else { format!(" ({})", skipped.join("; ")) };
+        let known = first.join(" ") + &more + &meant + &skipped;
         DataError::MissingColumn { path: path.to_path_buf(), column: column.clone(), known }
     };
     let lacking = columns.iter().filter(|column| !known.contains(&column.as_str())).map(problem);

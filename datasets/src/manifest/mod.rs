@@ -19,6 +19,7 @@ pub use arm::{Actuation, Arm, Registration, Strain};
 pub use source::{Clock, Drift, DriftTable, Offset, OffsetTable, Source, Sources, Word};
 
 use crate::error::{DataError, Problems};
+use crate::join::Rule;
 use crate::toml_file::{self, TomlSource};
 use crate::units::{Dimension, Unit};
 
@@ -74,12 +75,20 @@ pub struct Table {
     pub ignore: Vec<String>,
     /// Folder of shared data below which the files also are looked for.
     pub folder: Option<String>,
-    /// Separator of CSV cells, one character; a comma where it is omitted.
+    /// Separator of CSV cells, one character; recognised if it is omitted.
     pub separator: Option<String>,
+    /// Decimal separator in CSV, `","` or `"."`; recognised if it is omitted.
+    pub decimal: Option<String>,
     /// Where a trial's name stands; the file name without extension where it is omitted.
     pub trial: TrialName,
     /// Column of time.
     pub time: Time,
+    /// Columns of angles that are written within one turn; they are unwrapped.
+    pub angles: Vec<String>,
+    /// Range of each counter, such as 65536; they are unwrapped.
+    pub counters: BTreeMap<String, f64>,
+    /// Four columns each of unit quaternions, whose sign is kept.
+    pub quaternions: Vec<[String; 4]>,
 }
 
 /// `trial = { column = "…" }` or `trial = { file = "regular expression with one group" }`.
@@ -116,6 +125,8 @@ pub struct Signal {
     pub name: Option<String>,
     /// Physical meaning of a context signal, where its name does not show it.
     pub quantity: Option<PhysicalQuantity>,
+    /// Fills missing values from the samples around: `previous` or `linear`. Else a missing value is refused.
+    pub fill: Option<Rule>,
 }
 
 /// Physical quantities that effects of flight and of loads need.
@@ -340,10 +351,21 @@ impl Manifest {
         all
     }
 
-    /// A full turn in the unit of an angle of a source.
-    pub(crate) fn angle_period(&self, source: &str, column: &str) -> Option<f64> {
-        let full = format!("{source}.{column}");
-        let (.., unit) = self.signal_columns().into_iter().find(|(_, _, name, _)| *name == full)?;
+    /// Period of each declared angle and counter, in its unit, by its name in the manifest.
+    pub(crate) fn periods(&self) -> BTreeMap<String, f64> {
+        let table = ("", &self.table.angles, &self.table.counters);
+        let sources = self.source.list.iter().map(|s| (s.name.as_str(), &s.angles, &s.counters));
+        let of = |(source, angles, counters): (&str, &Vec<String>, &BTreeMap<String, f64>)| {
+            let full = |column: &String| if source.is_empty() { column.clone() } else { format!("{source}.{column}") };
+            let angles = angles.iter().filter_map(|column| Some((full(column), self.turn(&full(column))?)));
+            angles.chain(counters.iter().map(|(column, range)| (full(column), *range))).collect::<Vec<_>>()
+        };
+        sources.chain([table]).flat_map(of).collect()
+    }
+
+    /// A full turn in the unit of an angle.
+    pub(crate) fn turn(&self, name: &str) -> Option<f64> {
+        let (.., unit) = self.signal_columns().into_iter().find(|(_, _, column, _)| column == name)?;
         let unit = Unit::parse(&unit).ok().filter(|unit| unit.dimension == Dimension::Angle)?;
         Some(2.0 * std::f64::consts::PI / unit.factor())
     }

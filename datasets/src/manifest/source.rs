@@ -1,5 +1,6 @@
 //! `[[source]]`: recordings of one trial in several files, each with a clock of its own.
 
+use std::collections::BTreeMap;
 use std::fmt;
 
 use serde::de::value::MapAccessDeserializer;
@@ -40,8 +41,10 @@ pub struct Source {
     pub resample: Rule,
     /// Longer distances of samples are gaps; five of its steps where it is omitted.
     pub gap: Option<Quantity>,
-    /// Columns of angles, which are unwrapped.
+    /// Columns of angles that are written within one turn; they are unwrapped.
     pub angles: Vec<String>,
+    /// Range of each counter, such as 65536; they are unwrapped.
+    pub counters: BTreeMap<String, f64>,
     /// Four columns each of unit quaternions, which are turned along great circles.
     pub quaternions: Vec<[String; 4]>,
 }

@@ -24,7 +24,7 @@ impl Manifest {
     pub fn validate(&self, source: &TomlSource) -> Vec<TomlError> {
         let mut check = Check { source, problems: Vec::new(), more: 0 };
         match self.source.list.is_empty() {
-            true => check.table(&self.table),
+            true => check.table(self),
             false => check.sources(self),
         }
         check.signals("actuator", &self.actuator);

@@ -44,6 +44,7 @@ pub fn manifest(of: &Manifest, trials: &[Trial], by: &str) -> Manifest {
         unit: si(&own.unit),
         name: (own.name() != column).then(|| own.name().to_string()),
         quantity: own.quantity,
+        fill: None,
     };
     let signals = |own: &[Signal], columns: &[String]| own.iter().zip(columns).map(|(o, c)| signal(o, c)).collect();
     let measured = |(own, column): (&Measured, &String)| Measured {

@@ -1,7 +1,7 @@
 //! The one pass over all files when a set is opened: each is read side by side, and what they gave is joined in sorted order.
 
-use std::collections::BTreeMap;
-use std::path::PathBuf;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
@@ -32,6 +32,8 @@ struct Part {
     problems: Vec<DataError>,
     /// Mismatches of manifest and trials.
     misfits: Vec<DataError>,
+    /// Recognised properties of the file.
+    notes: Vec<String>,
     digest: Vec<u8>,
 }
 
@@ -56,7 +58,7 @@ impl Recordings {
         let (hash, complete) =
             (self.hash_of(&digests), parts.iter().all(|p| p.problems.is_empty()) && self.is_aligned());
         let (mut wholes, mut entries, mut trials, mut misfits) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        let mut time_type = None;
+        let (mut time_type, mut notes) = (None, BTreeSet::new());
         for part in parts {
             wholes.extend(part.wholes);
             entries.extend(part.entries);
@@ -64,9 +66,11 @@ impl Recordings {
             problems.extend(part.problems);
             misfits.extend(part.misfits);
             time_type = time_type.or(part.time_type);
+            notes.extend(part.notes);
             self.spans.push(part.spans);
         }
         self.hash = hash;
+        self.notes.extend(notes);
         let unit_not_used = time_type.and_then(|of| self.unit_not_used(&of));
         entries.sort_by(|a, b| natural::compare(&a.0.name, &b.0.name));
         trials.sort_by(|a, b| natural::compare(&a.name, &b.name));
@@ -77,7 +81,7 @@ impl Recordings {
         }
         self.held = (samples.into_inner() <= options.hold).then_some(trials);
         let whole = complete && problems.is_empty() && misfits.is_empty();
-        self.warnings = plausible::warnings(&self.manifest, &self.layout, &seen, whole);
+        self.warnings.extend(plausible::warnings(&self.manifest, &self.layout, &seen, whole));
         self.warnings.extend(unit_not_used);
         self.warnings.extend(beside);
         consistency::unique(&wholes, &mut problems);
@@ -115,10 +119,11 @@ impl Recordings {
             return self.read_joined(plan, file, roles, samples, options);
         }
         let (mut part, path) = (Part::default(), self.folder.join(&self.files[file]));
-        let opened = match DataFile::open(&path, &self.wanted, true) {
+        let opened = match DataFile::open(&path, None, &self.wanted, true) {
             Ok((mut opened, digest)) => {
                 part.digest = digest.unwrap_or_default();
                 part.problems.extend(opened.take_problems());
+                part.problems.extend(self.other_units(&path, &opened.units()));
                 part.time_type = opened.time_type().cloned();
                 opened
             }
@@ -137,8 +142,18 @@ impl Recordings {
                 self.take_whole(whole, file, pieces, roles, samples, options, &mut part);
             }
         }
-        part.spans = trials.into_spans();
+        (part.spans, part.notes) = trials.into_spans();
         part
+    }
+
+    /// Columns whose file says another unit than the manifest.
+    fn other_units(&self, path: &Path, written: &BTreeMap<String, String>) -> Vec<DataError> {
+        let time = &self.manifest.table.time;
+        let clock = time.column.iter().zip(&time.unit).map(|(column, unit)| (column.clone(), unit.clone()));
+        let signals = self.manifest.signal_columns().into_iter().map(|(_, _, column, unit)| (column, unit));
+        let check =
+            |(column, unit): (String, String)| DataError::other_unit(path, &column, written.get(&column), &unit);
+        signals.chain(clock).filter_map(check).collect()
     }
 
     /// SHA-256 of each file.

@@ -95,7 +95,7 @@ impl<'a> Reading<'a> {
 
     fn open(&mut self, file: usize, piece: usize) -> Result<(), DataError> {
         let set = self.set;
-        let (opened, _) = DataFile::open(&set.folder.join(&set.files[file]), &set.wanted, false)?;
+        let (opened, _) = DataFile::open(&set.folder.join(&set.files[file]), None, &set.wanted, false)?;
         let trials = FileTrials::new(opened, &set.files[file], &set.layout, set.spans[file].clone(), piece);
         self.open = Some((file, trials));
         self.ready.clear();

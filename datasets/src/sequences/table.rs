@@ -29,7 +29,7 @@ pub use window::{Windows, whole};
 
 use super::{Asked, SequenceSet};
 use crate::error::{DataError, Problems};
-use crate::ingest::recording::{self, Recording, Wanted};
+use crate::ingest::recording::{self, Recording, TimeColumn, Wanted};
 
 /// Which files, and what their columns are.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -39,6 +39,12 @@ pub struct Tables {
     pub folder: PathBuf,
     /// File names or patterns within the folder.
     pub files: Vec<String>,
+    /// Separator of CSV cells, one character; recognised if it is omitted.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub separator: Option<String>,
+    /// Decimal separator in CSV, `","` or `"."`; recognised if it is omitted.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub decimal: Option<String>,
     /// Column of the sequence's name. Left out: each file is one sequence.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sequence: Option<String>,
@@ -76,6 +82,8 @@ impl Default for Tables {
         Self {
             folder: ".".into(),
             files: vec!["*.csv".into()],
+            separator: None,
+            decimal: None,
             sequence: None,
             time: None,
             elapsed: None,
@@ -110,10 +118,17 @@ pub fn read(tables: &Tables, folder: &Path, rules: Rules) -> Result<SequenceSet,
     let mut named = vec![];
     for path in files(tables, folder)? {
         let mut column = |name: &Option<String>, numbers: &BTreeMap<String, bool>| {
-            let wanted = Wanted { numbers: numbers.clone(), label: name.clone(), time: None, separator: b',' };
+            let (separator, decimal) = (sign(&tables.separator), sign(&tables.decimal));
+            let time = tables.time.clone().filter(|time| numbers.contains_key(time));
+            let time = time.map(|column| TimeColumn { column, unit: Some("s".into()), counts: false });
+            let wanted = Wanted { numbers: numbers.clone(), label: name.clone(), time, separator, decimal };
             recording::read(&path, &wanted, &mut problems)
         };
-        let Some(numbers) = column(&tables.sequence, &wanted(tables)) else { continue };
+        let Some(mut numbers) = column(&tables.sequence, &wanted(tables)) else { continue };
+        if let (Some(ticks), Some(time)) = (&numbers.ticks, &tables.time) {
+            let seconds = ticks.seconds(&(0..numbers.rows).collect::<Vec<_>>());
+            numbers.numbers.insert(time.clone(), seconds);
+        }
         let parts = match &tables.part {
             None => None,
             some => match column(some, &BTreeMap::new()) {
@@ -128,6 +143,10 @@ pub fn read(tables: &Tables, folder: &Path, rules: Rules) -> Result<SequenceSet,
     let [training, validation, test] = parts::deal(tables, named);
     let (channels, outputs) = (tables.inputs.clone(), tables.targets.clone());
     Ok(SequenceSet { channels, outputs, asked: rules.asked, training, validation, test })
+}
+
+fn sign(text: &Option<String>) -> Option<char> {
+    text.as_deref().and_then(|text| text.chars().next())
 }
 
 /// One file.

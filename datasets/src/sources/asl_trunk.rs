@@ -89,7 +89,7 @@ fn folder(clone: &Path) -> Result<PathBuf, DataError> {
 
 fn read(path: &Path, columns: &[&str]) -> Result<Recording, DataError> {
     let numbers: BTreeMap<String, bool> = columns.iter().chain(&["ID"]).map(|c| (c.to_string(), false)).collect();
-    let wanted = Wanted { numbers, label: None, time: None, separator: b',' };
+    let wanted = Wanted { numbers, ..Wanted::default() };
     let mut problems = Vec::new();
     let recording = recording::read(path, &wanted, &mut problems);
     Problems(problems).into_result()?;

@@ -31,7 +31,6 @@ const CASES: &[(&str, &str, &[&str])] = &[
     ),
     ("{ column = \"t\", unit = \"ms\" }", "{ rate_hz = 1e-300 }", &["manifest.toml:6:20", "rate_hz is 1e-300"]),
     ("unit = \"ms\" }", "unit = \"sample\", rate_hz = 2e6 }", &["manifest.toml:6", "rate_hz is 2e6"]),
-    (", unit = \"ms\" }", " }", &["manifest.toml:6", "the unit of `time` is missing"]),
     (", unit = \"ms\" }", ", rate_hz = 20.0 }", &["manifest.toml:6", "without `unit`"]),
     ("column = \"y\"", "column = \"t\"", &["manifest.toml:13", "column \"t\" is the time", "cannot be an output"]),
     ("column = \"q\"", "column = \"t\"", &["manifest.toml:7", "column \"t\" is the time", "cannot be an actuator"]),

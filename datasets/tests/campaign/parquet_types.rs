@@ -196,7 +196,6 @@ fn an_instant_that_is_empty_is_told_in_its_row() {
 #[test]
 fn what_is_not_read_is_named_by_type_and_column() {
     let kinds = [
-        ("list", "list"),
         ("struct", "struct"),
         ("map", "map"),
         ("binary", "binary"),

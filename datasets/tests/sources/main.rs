@@ -149,7 +149,7 @@ fn what_is_wrong_in_a_file_is_told_with_its_row() {
     let (first, second) = (lines[100], lines[101]);
     lab.write("b_motors.csv", &text.replace(&format!("{first}\n{second}"), &format!("{second}\n{first}")));
     let message = open(&lab).map(|_| ()).expect_err("refused");
-    assert!(message.contains("b_motors.csv, row 102: the time of source `motors` goes from"), "{message}");
+    assert!(message.contains("b_motors.csv, row 102, column `t`: time goes back from"), "{message}");
     lab.write("b_motors.csv", &text.replace(second, "1,98; 0,5"));
     let message = open(&lab).map(|_| ()).expect_err("refused");
     assert!(message.contains("b_motors.csv") && message.contains("row 102"), "{message}");
@@ -244,7 +244,7 @@ fn a_table_of_another_hand_is_the_same_table() {
     let text = Lab::manifest().replace("unit   = \"rad\"", "unit   = \"deg\"");
     other.write("manifest.toml", &text);
     let message = open(&other).map(|_| ()).expect_err("refused");
-    assert!(message.contains("column `q1` in \"rad\", and the manifest in \"deg\""), "{message}");
+    assert!(message.contains("column `q1`: the file has the unit \"rad\", and the manifest \"deg\""), "{message}");
 }
 
 /// Oracle: the laboratory's clocks, rates, and its occlusion of 24 frames at 120 Hz; the picture has a line for each signal.

@@ -19,6 +19,7 @@ use std::fs::File;
 use std::io::BufReader;
 use std::path::Path;
 
+use ::mcap::Channel;
 use ::mcap::io::MessageReader;
 use ::mcap::sans_io::LinearReaderOptions;
 
@@ -41,7 +42,7 @@ pub(super) fn read(path: &Path, keep: Keep) -> Result<Take, DataError> {
 fn records(path: &Path, keep: Keep) -> Result<Take, DataError> {
     let file = File::open(path).map_err(|e| DataError::file_system("read", path, &e))?;
     let options = LinearReaderOptions::default().with_record_length_limit(RECORD_LIMIT).with_validate_chunk_crcs(true);
-    let mut topics: BTreeMap<u16, Topic> = BTreeMap::new();
+    let (mut topics, mut by_channel): (Vec<Topic>, BTreeMap<u16, usize>) = (Vec::new(), BTreeMap::new());
     let (mut take, mut values, mut messages) = (Take::new(Format::Mcap), 0, 0usize);
     let mut reader = MessageReader::new_with_options(BufReader::with_capacity(1 << 18, file), options);
     let registered = zstd::Zstd::new().and_then(|zstd| reader.add_decompressor(zstd));
@@ -51,8 +52,8 @@ fn records(path: &Path, keep: Keep) -> Result<Take, DataError> {
             Ok(message) => {
                 messages += 1;
                 let channel = &message.channel;
-                let topic = topics.entry(channel.id).or_insert_with(|| Topic::new(channel, keep));
-                values += topic.take(&message, keep);
+                let index = *by_channel.entry(channel.id).or_insert_with(|| topic_of(&mut topics, channel, keep));
+                values += topics[index].take(&message, keep);
                 check_size(path, values)?;
             }
             Err(error) => {
@@ -66,7 +67,6 @@ fn records(path: &Path, keep: Keep) -> Result<Take, DataError> {
         return Err(no_such(path, 1, what, "copy the file again, or recover it with `mcap recover`"));
     }
     let (mut notes, mut lost) = (Vec::new(), Vec::new());
-    let mut topics: Vec<Topic> = topics.into_values().collect();
     topics.sort_by(|a, b| a.name.cmp(&b.name));
     for topic in topics {
         let (group, said) = topic.finish();
@@ -74,10 +74,22 @@ fn records(path: &Path, keep: Keep) -> Result<Take, DataError> {
         lost.extend(said.lost);
         take.groups.extend(group);
     }
+    if take.groups.is_empty() {
+        let remedy = "record messages of ROS 2 (cdr, with schemas of ros2msg), or convert the recording to CSV";
+        return Err(DataError::Unsupported { path: path.to_path_buf(), what: short(&notes.join("; "), 400), remedy });
+    }
     one_name_each(&mut take.groups);
     few(notes, &mut take.notes);
     few(lost, &mut take.lost);
     Ok(take)
+}
+
+/// Index of the topic of a channel; channels of one topic with one schema share it.
+fn topic_of(topics: &mut Vec<Topic>, channel: &Channel, keep: Keep) -> usize {
+    topics.iter().position(|topic| topic.is_of(channel)).unwrap_or_else(|| {
+        topics.push(Topic::new(channel, keep));
+        topics.len() - 1
+    })
 }
 
 /// Some of the sentences, and how many more.
@@ -87,7 +99,7 @@ fn few(all: Vec<String>, into: &mut Vec<String>) {
     into.extend((more > 0).then(|| format!("and {more} more topics alike")));
 }
 
-/// Two channels may carry one topic.
+/// Channels of one topic may have several schemas.
 fn one_name_each(groups: &mut [Group]) {
     for k in 1..groups.len() {
         if groups[k].name == groups[k - 1].name {

@@ -13,6 +13,8 @@ use crate::formats::{Column, Group, Keep};
 /// A topic.
 pub(super) struct Topic {
     pub name: String,
+    /// Encoding of its messages, and their schema.
+    form: Form,
     /// Layout of its messages; or the reason why they are not read.
     layout: Result<Item, String>,
     /// Indices of columns by path.
@@ -68,15 +70,16 @@ impl Topic {
                 parsed.map_err(|e| format!("its schema cannot be read: {}", short(&e.to_string(), 80)))
             }
             Some(schema) => Err(format!(
-                "messages of encoding {:?} with a schema of {:?} are not read",
+                "messages of encoding {:?} with a schema of {:?} are not supported",
                 channel.message_encoding, schema.encoding
             )),
             None => Err("it has no schema".to_string()),
         };
-        let name: String = channel.topic.chars().filter(|c| !c.is_control()).collect();
+        let name = name(channel);
         Topic {
             keeps_log_time: keep.keeps(&format!("{name}.log_time")),
             name,
+            form: form(channel),
             layout,
             places: BTreeMap::new(),
             columns: Vec::new(),
@@ -90,6 +93,11 @@ impl Topic {
             renamed: false,
             refused: BTreeMap::new(),
         }
+    }
+
+    /// Whether the messages of a channel are of this topic and read alike.
+    pub fn is_of(&self, channel: &Channel) -> bool {
+        self.name == name(channel) && self.form == form(channel)
     }
 
     /// Takes one message; how many values are kept of it.
@@ -174,7 +182,7 @@ impl Topic {
         let mut said = Said::default();
         let name = &self.name;
         if let Err(why) = &self.layout {
-            said.notes.push(format!("topic `{name}` is passed over: {why}"));
+            said.notes.push(format!("topic `{name}` is skipped: {why}"));
         }
         for (why, count) in &self.refused {
             said.lost.push(format!("topic `{name}`: {count} messages are not read: {why}"));
@@ -216,6 +224,19 @@ impl Topic {
         let (name, span) = (self.name.clone(), self.span);
         (Some(Group { name, samples, span, rate: None, time, columns, first_row: 1 }), said)
     }
+}
+
+/// Encoding of messages, and name, encoding and text of their schema.
+type Form = (String, Option<(String, String, Vec<u8>)>);
+
+fn form(channel: &Channel) -> Form {
+    let schema = channel.schema.as_ref();
+    let schema = schema.map(|schema| (schema.name.clone(), schema.encoding.clone(), schema.data.to_vec()));
+    (channel.message_encoding.clone(), schema)
+}
+
+fn name(channel: &Channel) -> String {
+    channel.topic.chars().filter(|c| !c.is_control()).collect()
 }
 
 /// The stamp of a header, seconds and nanoseconds, s; none where it is 0.

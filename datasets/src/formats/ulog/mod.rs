@@ -72,7 +72,15 @@ pub(super) fn read(path: &Path, keep: Keep) -> Result<Take, DataError> {
     let in_data = parser.in_data();
     lost.extend(records.refused());
     drop(parser);
-    let groups = topics.into_inner().groups()?;
+    let topics = topics.into_inner();
+    let untimed = topics.untimed.iter().cloned().collect::<Vec<_>>().join(", ");
+    let groups = topics.groups()?;
+    let undefined = lost.iter().find(|what| what.contains("type_and_name"));
+    if groups.is_empty() && (!untimed.is_empty() || undefined.is_some()) {
+        let what = undefined.cloned().unwrap_or_else(|| format!("topics without a `timestamp` of 64 bits ({untimed})"));
+        let remedy = "convert the log with `ulog2csv`, and read the tables";
+        return Err(DataError::Unsupported { path: path.to_path_buf(), what, remedy });
+    }
     if groups.is_empty() {
         let what = if in_data { "it has no samples" } else { "its definitions cannot be read" };
         let reason = [vec![what.to_string()], lost].concat().join("; ");
@@ -80,6 +88,7 @@ pub(super) fn read(path: &Path, keep: Keep) -> Result<Take, DataError> {
     }
     let mut take = Take { groups, lost, ..Take::new(Format::Ulog) };
     take.notes.push("time is `timestamp`, µs since boot; the format has no units".into());
+    take.notes.extend((!untimed.is_empty()).then(|| format!("skipped, without a `timestamp` of 64 bits: {untimed}")));
     let (count, seconds) = dropouts.into_inner();
     if count > 0 {
         take.notes.push(format!("the logger left out {count} stretches, {seconds:.3} s together"));

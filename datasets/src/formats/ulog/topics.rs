@@ -1,5 +1,6 @@
 //! The topics of a log: selected fields of each message become columns.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use px4_ulog::stream_parser::model::{DataMessage, FlattenedFieldType, FlattenedFormat};
@@ -16,29 +17,58 @@ struct Topic {
     fields: Vec<(FlattenedFieldType, usize, usize)>,
 }
 
-/// All topics, by the number that messages name them with.
+/// All topics, and which of them each number in the messages names.
 pub(super) struct Topics<'a> {
     path: PathBuf,
     keep: Keep<'a>,
-    topics: Vec<Option<Topic>>,
+    topics: Vec<Topic>,
+    by_number: Vec<Named>,
     values: usize,
+    /// Topics without a time stamp of 64 bits.
+    pub untimed: BTreeSet<String>,
+}
+
+/// What a number in a message names.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Named {
+    Unknown,
+    /// A topic that is skipped.
+    Skipped,
+    /// Index of a topic.
+    Topic(usize),
 }
 
 impl<'a> Topics<'a> {
     pub fn new(path: &Path, keep: Keep<'a>) -> Self {
-        Self { path: path.to_path_buf(), keep, topics: Vec::new(), values: 0 }
+        let (topics, by_number, untimed) = (Vec::new(), Vec::new(), BTreeSet::new());
+        Self { path: path.to_path_buf(), keep, topics, by_number, values: 0, untimed }
+    }
+
+    /// What the number of a message names. A topic that is subscribed again, under another number, goes on.
+    fn named(&mut self, message: &DataMessage) -> Named {
+        let Some(new) = topic(message.flattened_format, message.multi_id.value(), self.keep) else {
+            self.untimed.insert(visible(&message.flattened_format.message_name));
+            return Named::Skipped;
+        };
+        let same = |old: &Topic| old.group.name == new.group.name && old.stamp == new.stamp && old.fields == new.fields;
+        let before = self.topics.iter().position(|old| same(old) && old.group.columns.len() == new.group.columns.len());
+        Named::Topic(before.unwrap_or_else(|| {
+            self.topics.push(new);
+            self.topics.len() - 1
+        }))
     }
 
     /// Takes one message.
     pub fn take(&mut self, message: &DataMessage) {
         let index = message.msg_id as usize;
-        if index >= self.topics.len() {
-            self.topics.resize_with(index + 1, || None);
+        if index >= self.by_number.len() {
+            self.by_number.resize(index + 1, Named::Unknown);
         }
-        if self.topics[index].is_none() {
-            self.topics[index] = topic(message.flattened_format, message.multi_id.value(), self.keep);
+        if self.by_number[index] == Named::Unknown {
+            self.by_number[index] = self.named(message);
         }
-        let Some(topic) = &mut self.topics[index] else { return };
+        let Named::Topic(topic) = self.by_number[index] else { return };
+        let topic = &mut self.topics[topic];
         let Some(time) = seconds(message.data, topic.stamp) else { return };
         let group = &mut topic.group;
         if group.samples == 0 {
@@ -63,7 +93,7 @@ impl<'a> Topics<'a> {
     /// The topics that have samples, by name.
     pub fn groups(self) -> Result<Vec<Group>, DataError> {
         self.full()?;
-        let mut groups: Vec<Group> = self.topics.into_iter().flatten().map(|topic| topic.group).collect();
+        let mut groups: Vec<Group> = self.topics.into_iter().map(|topic| topic.group).collect();
         groups.retain(|group| group.samples > 0);
         groups.sort_by(|a, b| a.name.cmp(&b.name));
         for pair in 1..groups.len() {

@@ -2,10 +2,11 @@
 
 use std::collections::BTreeMap;
 
+use super::csv::decimal::Decimal;
 use super::ticks::TickType;
 
 /// The cells of a column; `None` is an empty one.
-pub(super) enum Cells {
+pub(crate) enum Cells {
     /// As they are written, in CSV and in columns of text.
     Text(Texts),
     /// Floats, and integers that they hold.
@@ -18,16 +19,20 @@ pub(super) enum Cells {
 
 /// Cells of text in one buffer; an empty cell is an empty text.
 #[derive(Default)]
-pub(super) struct Texts {
+pub(crate) struct Texts {
     buffer: String,
     /// End of each cell in the buffer.
     ends: Vec<usize>,
 }
 
-/// Columns of a file of text.
-pub(super) struct Columns {
+/// Columns of a text table.
+pub(crate) struct Columns {
     pub rows: usize,
     pub cells: BTreeMap<String, Cells>,
+    /// How its numbers are written.
+    pub decimal: Decimal,
+    /// Recognised properties.
+    pub notes: Vec<String>,
 }
 
 impl Texts {

@@ -1,189 +1,219 @@
-//! CSV: the layout is checked here, the cells are split by the crate csv.
+//! Text tables as laboratories write them.
 //!
-//! The header is read by hand, for names that are there twice, and the cells of each row are counted before any is taken, so that
-//! every row of another length is told at once.
+//! | in the file | recognised by | else |
+//! | --- | --- | --- |
+//! | gzip, UTF-16, byte-order mark | first bytes | UTF-8 |
+//! | separator `,` `;` tab `\|` blanks | a first row `sep=;`, or the rows ([`layout`]) | refused: `separator = …` |
+//! | lines before the header | the header is the first row with the wanted columns | the first row is the header |
+//! | decimal comma | numbers such as `0,5` ([`decimal`]) | a point, or refused: `decimal = …` |
+//! | row of units below the header | every cell is a unit or empty | none |
+//! | missing values | `nan`, `#N/A`, `null`, `-`, … ([`missing`]) | |
+//! | dates and times of day (ISO 8601) | first cell of the column of time ([`instant`]) | a number |
+//!
+//! What was recognised is a note. A row with fewer cells than the header, or with more that are not empty, is refused with its number.
 
-use std::path::Path;
+pub(crate) mod decimal;
+mod instant;
+mod layout;
+pub(crate) mod missing;
+pub(crate) mod rows;
+pub(crate) mod text;
+mod units;
 
-use csv::{ReaderBuilder, StringRecord};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
 
+use self::decimal::Evidence;
+use self::rows::{Rows, bare, width};
 use super::cells::{Cells, Columns, Texts};
 use super::{Wanted, header, visible};
 use crate::error::{DataError, More, Problems};
 
-/// The wanted columns; what is wrong with the header or with rows goes to `problems`, and the rest is read.
-pub(super) fn read(
-    path: &Path,
-    bytes: Vec<u8>,
-    first_row: usize,
-    wanted: &Wanted,
-    problems: &mut Vec<DataError>,
-) -> Result<Columns, DataError> {
-    let text = text(path, bytes, wanted.separator)?;
-    if text.is_empty() {
-        return Err(DataError::EmptyFile { path: path.to_path_buf() });
-    }
-    let (names, body) = text.split_once('\n').unwrap_or((&text, ""));
-    let names = cells(names, wanted.separator as char);
-    separator_fits(path, &names, wanted)?;
-    let mut found = header::check(path, &names, wanted);
-    let present = header::present(&names, wanted);
-    let without = wanted.time.as_ref().filter(|time| time.unit.is_none() && present.contains(&time.column.as_str()));
-    found.extend(without.map(|time| DataError::TimeWithoutUnit { path: path.into(), column: time.column.clone() }));
-    if body.is_empty() {
-        found.push(DataError::NoRows { path: path.to_path_buf() });
-    } else {
-        found.extend(count_cells(path, body, first_row, &names, wanted.separator));
-    }
-    let readable = !found.iter().any(|p| matches!(p, DataError::RaggedRow { .. } | DataError::BadText { .. }));
-    if present.is_empty() || body.is_empty() || !readable {
-        Problems(std::mem::take(&mut found)).into_result()?;
-    }
-    problems.extend(found);
-    let parsed = parse(body, &names, &present, wanted.separator);
-    parsed.map_err(|e| DataError::Damaged { path: path.to_path_buf(), reason: e.to_string() })
+/// A text table whose layout is known.
+pub(crate) struct Csv {
+    path: PathBuf,
+    text: String,
+    separator: char,
+    /// Start of the header in the text, and its row.
+    start: usize,
+    header: usize,
+    /// Names of the columns.
+    pub names: Vec<String>,
+    /// Units by column, if a row below the header says them.
+    pub units: Option<BTreeMap<String, String>>,
+    /// Recognised properties.
+    pub notes: Vec<String>,
+    decimal: Option<char>,
 }
 
-/// How files begin that are something else, what they are, and what to do.
-const OTHER_FORMATS: &[(&[u8], &str, &str)] = &[
-    (&[0xff, 0xfe], "the text is UTF-16", "save the file as CSV in UTF-8"),
-    (&[0xfe, 0xff], "the text is UTF-16", "save the file as CSV in UTF-8"),
-    (b"PK\x03\x04", "this is a spreadsheet or another ZIP archive", "save the table as CSV in UTF-8"),
-    (&[0x1f, 0x8b], "the file is compressed with gzip", "decompress it"),
-    (&[0x28, 0xb5, 0x2f, 0xfd], "the file is compressed with zstd", "decompress it"),
-    (b"PAR1", "this is a Parquet file", "let its name end in .parquet"),
-    (b"version https://git-lfs", "this is a pointer of Git LFS", "fetch the file itself: git lfs pull"),
-    (b"<!DOCTYPE", "this is a web page", "download the table itself"),
-    (b"<html", "this is a web page", "download the table itself"),
-];
-
-/// Actual format of a file that is no text table, and a remedy.
-pub(super) fn other_format(bytes: &[u8]) -> Option<(&'static str, &'static str)> {
-    OTHER_FORMATS.iter().find(|(start, _, _)| bytes.starts_with(start)).map(|(_, what, remedy)| (*what, *remedy))
-}
-
-/// UTF-8 without byte-order mark, with `\n` at line ends and none at the end of the file.
-fn text(path: &Path, bytes: Vec<u8>, separator: u8) -> Result<String, DataError> {
-    let bad = |row, what: String, remedy| Err(DataError::BadText { path: path.to_path_buf(), row, what, remedy });
-    if let Some((what, remedy)) = other_format(&bytes) {
-        return bad(1, what.to_string(), remedy);
-    }
-    let text = match String::from_utf8(bytes) {
-        Ok(text) => text,
-        Err(e) => {
-            let (row, column) = place(&e.as_bytes()[..e.utf8_error().valid_up_to()], separator);
-            return bad(row, format!("the text is not UTF-8{column}"), "save the file as CSV in UTF-8");
+impl Csv {
+    /// Recognises the layout of a table with these wanted columns.
+    ///
+    /// # Errors
+    /// An empty file; text that cannot be decoded; several layouts that fit as well.
+    pub fn new(path: &Path, bytes: Vec<u8>, wanted: &Wanted) -> Result<Self, DataError> {
+        let mut notes = Vec::new();
+        let text = text::decoded(path, bytes, &mut notes)?;
+        if text.trim().is_empty() {
+            return Err(DataError::EmptyFile { path: path.to_path_buf() });
         }
-    };
-    if let Some(at) = text.find('\0') {
-        let (row, column) = place(&text.as_bytes()[..at], separator);
-        return bad(row, format!("there is a zero byte in the text{column}"), "the file is damaged: copy it again");
+        let layout = layout::find(path, &text, wanted.separator, &wanted.columns())?;
+        let start = memchr::memchr_iter(b'\n', text.as_bytes()).take(layout.before).last().map_or(0, |end| end + 1);
+        let (names, units) = {
+            let mut rows = Rows::new(path, &text[start..], layout.separator, layout.before + 1);
+            rows.next()?;
+            let names = layout::names(rows.record.iter());
+            let has_next = rows.next().unwrap_or(false);
+            let units = units::units(&names, &rows.record).filter(|_| has_next);
+            (names, units)
+        };
+        notes.extend((layout.separator != ',').then(|| format!("cells are separated by {}", shown(layout.separator))));
+        notes.extend((layout.before > 0).then(|| format!("the header is row {}", layout.before + 1)));
+        notes.extend(units.is_some().then(|| "the row below the header has the units".to_string()));
+        let (path, separator, header, decimal) =
+            (path.to_path_buf(), layout.separator, layout.before + 1, wanted.decimal);
+        Ok(Self { path, text, separator, start, header, names, units, notes, decimal })
     }
-    let trimmed = text.strip_prefix('\u{feff}').unwrap_or(&text).trim_end_matches(['\n', '\r']);
-    match trimmed.contains('\r') {
-        true => Ok(trimmed.replace("\r\n", "\n").replace('\r', "\n")),
-        false if trimmed.len() == text.len() => Ok(text),
-        false => Ok(trimmed.to_string()),
+
+    /// Row of the first sample.
+    pub fn first_row(&self) -> usize {
+        self.header + 1 + usize::from(self.units.is_some())
     }
-}
 
-/// The row in which `before` ends, and ` in column …` where its header names one.
-fn place(before: &[u8], separator: u8) -> (usize, String) {
-    let line = before.rsplit(|b| *b == b'\n').next().unwrap_or_default();
-    let row = 1 + before.iter().filter(|b| **b == b'\n').count();
-    let header = before.split(|b| *b == b'\n').next().filter(|_| row > 1).unwrap_or_default();
-    let names = cells(&String::from_utf8_lossy(header), separator as char);
-    let index = line.iter().filter(|b| **b == separator).count();
-    let name = names.get(index).filter(|name| !name.is_empty());
-    (row, name.map_or(String::new(), |name| format!(" in column `{}`", visible(name))))
-}
-
-/// The names in a header: quotes and surrounding blanks removed.
-fn cells(header: &str, separator: char) -> Vec<String> {
-    let mut cells = vec![String::new()];
-    let mut quoted = false;
-    for c in header.chars() {
-        match c {
-            '"' => quoted = !quoted,
-            c if c == separator && !quoted => cells.push(String::new()),
-            c => cells.last_mut().into_iter().for_each(|cell| cell.push(c)),
+    /// The wanted columns. What is wrong with the header goes to `problems`, and the rest is read.
+    ///
+    /// # Errors
+    /// Rows with too few or too many cells; no rows; a number or a time that can mean two things.
+    pub fn read(&self, wanted: &Wanted, problems: &mut Vec<DataError>) -> Result<Columns, DataError> {
+        let mut found = header::check(&self.path, &self.names, wanted);
+        let present = header::present(&self.names, wanted);
+        let texts = self.texts(&present, &mut found)?;
+        let of_row =
+            found.iter().any(|problem| matches!(problem, DataError::RaggedRow { .. } | DataError::NoRows { .. }));
+        if present.is_empty() || of_row {
+            Problems(std::mem::take(&mut found)).into_result()?;
         }
+        problems.extend(found);
+        self.interpreted(wanted, texts, problems)
     }
-    cells.iter().map(|cell| cell.trim().to_string()).collect()
-}
 
-/// One column whose name contains another separator is a file with that separator.
-fn separator_fits(path: &Path, header: &[String], wanted: &Wanted) -> Result<(), DataError> {
-    if header.len() > 1 || wanted.columns().iter().any(|c| *c == header[0]) {
-        return Ok(());
+    /// The cells of some columns as they are written; rows of another length, or none, go to `problems`.
+    fn texts(&self, columns: &[&str], problems: &mut Vec<DataError>) -> Result<Vec<(String, Texts)>, DataError> {
+        let place = |name: &&str| self.names.iter().position(|column| column == name);
+        let mut texts: Vec<(usize, Texts)> =
+            columns.iter().filter_map(place).map(|at| (at, Texts::default())).collect();
+        let mut rows = Rows::new(&self.path, &self.text[self.start..], self.separator, self.header);
+        let mut ragged = Ragged { path: &self.path, names: &self.names, problems: Vec::new() };
+        while rows.next()? {
+            if rows.number < self.first_row() {
+                continue;
+            }
+            let cells = &rows.record;
+            texts.iter_mut().for_each(|(at, texts)| texts.push(bare(cells.get(*at).unwrap_or_default())));
+            (rows.number - rows.blank..rows.number).for_each(|blank| ragged.check(blank, 0, 0));
+            ragged.check(rows.number, cells.len(), width(cells));
+        }
+        problems.extend(ragged.problems.into_iter().map(|(_, problem)| problem));
+        problems.extend((rows.number < self.first_row()).then(|| DataError::NoRows { path: self.path.clone() }));
+        Ok(texts.into_iter().map(|(at, texts)| (self.names[at].clone(), texts)).collect())
     }
-    let Some(other) = [',', ';', '\t', '|'].into_iter().find(|s| header[0].contains(*s)) else { return Ok(()) };
-    let what = format!("the cells are separated by {other:?} and not by {:?}", wanted.separator as char);
-    let remedy = "set `separator` in [table] or [[source]] of the manifest";
-    Err(DataError::BadText { path: path.to_path_buf(), row: 1, what, remedy })
+
+    /// Times become ticks; of the numbers it is decided how they are written.
+    fn interpreted(
+        &self,
+        wanted: &Wanted,
+        texts: Vec<(String, Texts)>,
+        problems: &mut Vec<DataError>,
+    ) -> Result<Columns, DataError> {
+        let (mut cells, mut notes, mut evidence) = (BTreeMap::new(), Vec::new(), Evidence::default());
+        let (rows, row) = (texts.first().map_or(0, |(_, texts)| texts.len()), |i: usize| self.first_row() + i);
+        for (name, texts) in texts {
+            let time = wanted.time.as_ref().filter(|time| time.column == name);
+            let ticks = time.map_or(Ok(None), |_| instant::ticks((&self.path, &name), &texts, row, &mut notes))?;
+            if let Some((kind, ticks)) = ticks {
+                cells.insert(name, Cells::Ticks(kind, ticks));
+                continue;
+            }
+            if time.is_some_and(|time| time.unit.is_none()) {
+                problems.push(DataError::TimeWithoutUnit { path: self.path.clone(), column: name.clone() });
+            }
+            if wanted.numbers.contains_key(&name) {
+                texts.iter().enumerate().for_each(|(i, cell)| evidence.see(row(i), &name, cell));
+            }
+            cells.insert(name, Cells::Text(texts));
+        }
+        let decimal = evidence.decide(&self.path, self.separator, self.decimal, &mut notes)?;
+        Ok(Columns { rows, cells, decimal, notes })
+    }
 }
 
 /// Rows with too few or too many cells, one problem for each number of cells.
-fn count_cells(path: &Path, body: &str, first_row: usize, header: &[String], separator: u8) -> Vec<DataError> {
-    let (mut problems, expected) = (Vec::<(usize, DataError)>::new(), header.len());
-    let mut ragged = |row, found: usize| {
-        if found == expected {
+struct Ragged<'a> {
+    path: &'a Path,
+    names: &'a [String],
+    problems: Vec<(usize, DataError)>,
+}
+
+impl Ragged<'_> {
+    /// Looks at a row of `found` cells, of which those behind the first `filled` are empty.
+    fn check(&mut self, row: usize, found: usize, filled: usize) {
+        let expected = self.names.len();
+        if found == expected || (found > expected && filled <= expected) {
             return;
         }
-        if let Some((_, first)) = problems.iter_mut().find(|(count, _)| *count == found) {
+        if let Some((_, first)) = self.problems.iter_mut().find(|(count, _)| *count == found) {
             return first.more().into_iter().for_each(|more| more.add(row));
         }
-        let what = match header.get(found) {
+        let what = match self.names.get(found) {
             Some(first) => format!("none for column `{}`", visible(first)),
             None => format!("so cell {} has no column", expected + 1),
         };
-        let (path, more) = (path.to_path_buf(), More::default());
-        problems.push((found, DataError::RaggedRow { path, row, expected, found, what, more }));
-    };
-    // a line end within quotes does not end the row, as in a spreadsheet
-    let (mut row, mut found, mut quoted, mut empty, mut opened) = (first_row, 1, false, true, (first_row, 1));
-    for byte in body.bytes() {
-        match byte {
-            b'"' => {
-                quoted = !quoted;
-                opened = (row, found);
-                empty = false;
-            }
-            b'\n' if !quoted => {
-                ragged(row, if empty { 0 } else { found });
-                (row, found, empty) = (row + 1, 1, true);
-            }
-            b'\n' => {}
-            byte if byte == separator && !quoted => {
-                found += 1;
-                empty = false;
-            }
-            _ => empty = false,
-        }
+        let (path, more) = (self.path.to_path_buf(), More::default());
+        self.problems.push((found, DataError::RaggedRow { path, row, expected, found, what, more }));
     }
-    if !quoted {
-        ragged(row, if empty { 0 } else { found });
-    } else {
-        let (row, cell) = opened;
-        let column = header.get(cell - 1).map_or(String::new(), |name| format!(" in column `{}`", visible(name)));
-        let what = format!("a quotation mark is opened{column} and never closed");
-        let open = DataError::BadText { path: path.to_path_buf(), row, what, remedy: "close or delete it" };
-        problems.push((usize::MAX, open));
-    }
-    problems.into_iter().map(|(_, problem)| problem).collect()
 }
 
-/// All wanted columns as text: numbers are parsed afterwards, where a bad one can still be shown as it was written.
-fn parse(body: &str, header: &[String], wanted: &[&str], separator: u8) -> Result<Columns, csv::Error> {
-    let place = |name: &&str| header.iter().position(|column| column == name);
-    let mut texts: Vec<(usize, Texts)> = wanted.iter().filter_map(place).map(|at| (at, Texts::default())).collect();
-    let mut reader =
-        ReaderBuilder::new().has_headers(false).flexible(true).delimiter(separator).from_reader(body.as_bytes());
-    let (mut row, mut rows) = (StringRecord::new(), 0);
-    while reader.read_record(&mut row)? {
-        texts.iter_mut().for_each(|(at, texts)| texts.push(row.get(*at).unwrap_or_default()));
-        rows += 1;
+/// A separator by its name.
+fn shown(separator: char) -> String {
+    match separator {
+        '\t' => "tabs".into(),
+        rows::BLANKS => "blanks".into(),
+        other => format!("{other:?}"),
     }
-    let cells = texts.into_iter().map(|(at, texts)| (header[at].clone(), Cells::Text(texts))).collect();
-    Ok(Columns { rows, cells })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Names, first row and notes of a text.
+    fn of(text: &str, wanted: &[&str]) -> (Vec<String>, usize, String) {
+        let numbers = wanted.iter().map(|name| (name.to_string(), true)).collect();
+        let wanted = Wanted { numbers, ..Wanted::default() };
+        let csv = Csv::new(Path::new("a.csv"), text.into(), &wanted).expect("a layout");
+        (csv.names.clone(), csv.first_row(), csv.notes.join("; "))
+    }
+
+    /// Oracle: by hand.
+    #[test]
+    fn the_layout_is_recognised_with_and_without_wanted_columns() {
+        let names = ["t", "q", "y"].map(String::from).to_vec();
+        for (text, first_row, note) in [
+            ("t,q,y\n0,1,2\n", 2, ""),
+            ("t;q;y\n0,5;1,5;2,5\n1,5;2,5;3,5\n", 2, "separated by ';'"),
+            ("Recorder 2\nDate 2026-11-03\n\nt,q,y\n0,1,2\n1,2,3\n", 5, "header is row 4"),
+            ("Operator,Ann\nRig,2\nt,q,y\n0,1,2\n1,2,3\n", 4, "header is row 3"),
+            ("# t  q   y\n0  1   2\n1 2 3\n", 2, "blanks"),
+            ("\"SEP=\t\"\nt\tq\ty\n[s]\t[rad]\t[mm]\n0\t1\t2\n", 4, "units"),
+            ("t,q,y\n0,1,2,\n1,2,3,\n", 2, ""),
+        ] {
+            for wanted in [&["t", "q", "y"][..], &[]] {
+                let found = of(text, wanted);
+                assert_eq!((&found.0, found.1), (&names, first_row), "{text:?}");
+                assert!(found.2.contains(note), "{text:?}: {}", found.2);
+            }
+        }
+        assert_eq!(of("q \"\"1\"\",y\n1,2\n", &[]).0, ["q \"\"1\"\"", "y"]);
+        assert_eq!(of("\"q \"\"1\"\"\",y\n1,2\n", &[]).0, ["q \"1\"", "y"]);
+    }
 }

@@ -1,9 +1,12 @@
 //! Cells become numbers; what cannot is a problem with row, column and value. Cells of a column with the same problem are
 //! one message: the first of them, how many more there are, and in which rows.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
-use super::cells::Cells;
+use super::cells::{Cells, Texts};
+use super::csv::decimal::Decimal;
+use super::csv::missing::is_missing;
 use super::header::visible;
 use super::written::written;
 use crate::error::{DataError, More, shown};
@@ -44,24 +47,37 @@ impl Found {
 pub(super) struct Column<'a> {
     pub path: &'a Path,
     pub name: &'a str,
-    pub first_row: usize,
+    /// Row in the file of a cell.
+    pub row: &'a dyn Fn(usize) -> usize,
     pub may_be_empty: bool,
     /// It is the column of time.
     pub time: bool,
+    /// How its numbers are written, if they are text.
+    pub decimal: Decimal,
 }
 
+/// Spellings of missing values, and how often each occurs.
+pub(crate) type Missing = BTreeMap<String, usize>;
+
 impl Column<'_> {
-    /// The column as numbers, NaN for an empty cell.
-    pub fn read(&self, cells: &Cells, problems: &mut Vec<DataError>) -> Vec<f64> {
+    /// The column as numbers, NaN for a missing value; its spellings are counted.
+    pub fn read(&self, cells: &Cells, missing: &mut Missing, problems: &mut Vec<DataError>) -> Vec<f64> {
         let mut found = Found::default();
-        let mut number = |(i, cell): (usize, Option<f64>)| self.number(i, cell, &mut found);
+        let mut number = |(i, cell): (usize, Option<f64>)| match cell.filter(|value| value.is_nan()) {
+            Some(_) => self.spelled(i, "NaN", missing, &mut found),
+            None => self.number(i, cell, &mut found),
+        };
         let values = match cells {
             Cells::Numbers(cells) => cells.iter().copied().enumerate().map(number).collect(),
             Cells::Whole(cells) => {
                 cells.iter().map(|cell| cell.map(|value| value as f64)).enumerate().map(number).collect()
             }
             Cells::Text(cells) => {
-                cells.iter().enumerate().map(|(i, cell)| self.parse(i, cell.trim(), &mut found)).collect()
+                let parse = |(i, cell): (usize, &str)| match is_missing(cell.trim()) && !cell.is_empty() {
+                    true => self.spelled(i, cell.trim(), missing, &mut found),
+                    false => self.parse(i, cell.trim(), &mut found),
+                };
+                cells.iter().enumerate().map(parse).collect()
             }
             Cells::Ticks(..) => (0..cells.len()).map(|i| number((i, None))).collect(),
         };
@@ -73,7 +89,7 @@ impl Column<'_> {
     pub fn check_ticks(&self, values: &[Option<i64>], problems: &mut Vec<DataError>) {
         let mut found = Found::default();
         for (i, _) in values.iter().enumerate().filter(|(_, tick)| tick.is_none()) {
-            self.absent(i, &mut found);
+            self.absent(i, "", &mut found);
         }
         report(found, problems);
     }
@@ -83,7 +99,7 @@ impl Column<'_> {
         let mut found = Found::default();
         let mut label = |(i, label): (usize, String)| {
             if label.is_empty() {
-                self.absent(i, &mut found);
+                self.absent(i, "", &mut found);
             } else if label.contains(char::is_control) {
                 self.control(i, &label, &mut found);
                 return visible(&label);
@@ -100,22 +116,28 @@ impl Column<'_> {
         labels
     }
 
+    /// A missing value that is written as a word.
+    fn spelled(&self, i: usize, cell: &str, missing: &mut Missing, found: &mut Found) -> f64 {
+        *missing.entry(cell.to_string()).or_insert(0) += 1;
+        self.absent(i, cell, found)
+    }
+
     fn number(&self, i: usize, cell: Option<f64>, found: &mut Found) -> f64 {
         match cell {
             Some(value) if value.is_finite() => self.within(i, value, found),
             Some(value) => self.not_finite(i, &value.to_string(), found),
-            None => self.absent(i, found),
+            None => self.absent(i, "", found),
         }
     }
 
     fn parse(&self, i: usize, cell: &str, found: &mut Found) -> f64 {
         if cell.is_empty() {
-            return self.absent(i, found);
+            return self.absent(i, "", found);
         }
-        match cell.parse::<f64>() {
-            Ok(value) if value.is_finite() => self.within(i, value, found),
-            Ok(_) => self.not_finite(i, cell, found),
-            Err(_) => {
+        match self.decimal.number(cell) {
+            Some(value) if value.is_finite() => self.within(i, value, found),
+            Some(_) => self.not_finite(i, cell, found),
+            None => {
                 let (what, remedy) = written(cell, self.time);
                 let (path, column, row) = self.place(i);
                 let (value, more) = (shown(cell), More::default());
@@ -134,11 +156,14 @@ impl Column<'_> {
         found.refuse(Cause::TooFar, row, || DataError::TooFar { path, row, column, value, more: More::default() })
     }
 
-    fn absent(&self, i: usize, found: &mut Found) -> f64 {
+    fn absent(&self, i: usize, cell: &str, found: &mut Found) -> f64 {
         if !self.may_be_empty {
             let (path, column, row) = self.place(i);
-            let more = More::default();
-            found.refuse(Cause::Empty, row, || DataError::EmptyCell { path, row, column, more });
+            let (what, more) = match cell {
+                "" => ("the cell is empty".to_string(), More::default()),
+                word => (format!("{word:?} is a missing value"), More::default()),
+            };
+            found.refuse(Cause::Empty, row, || DataError::EmptyCell { path, row, column, what, more });
         }
         f64::NAN
     }
@@ -158,8 +183,28 @@ impl Column<'_> {
     }
 
     fn place(&self, i: usize) -> (std::path::PathBuf, String, usize) {
-        (self.path.to_path_buf(), self.name.to_string(), self.first_row + i)
+        (self.path.to_path_buf(), self.name.to_string(), (self.row)(i))
     }
+}
+
+/// The numbers of a column of text, in which values may be missing.
+pub(crate) fn numbers_of(
+    path: &Path,
+    name: &str,
+    row: &dyn Fn(usize) -> usize,
+    texts: Texts,
+    decimal: Decimal,
+    missing: &mut Missing,
+    problems: &mut Vec<DataError>,
+) -> Vec<f64> {
+    let column = Column { path, name, row, may_be_empty: true, time: false, decimal };
+    column.read(&Cells::Text(texts), missing, problems)
+}
+
+/// How missing values are spelled, as a sentence.
+pub(crate) fn spelled(missing: &Missing) -> Option<String> {
+    let counted: Vec<String> = missing.iter().map(|(cell, count)| format!("{cell:?} ({count} times)")).collect();
+    (!counted.is_empty()).then(|| format!("missing values are written {}", counted.join(", ")))
 }
 
 /// The name of a trial that is a number: without a point where it is a whole one.

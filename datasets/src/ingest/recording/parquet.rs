@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Once;
 
 use polars_arrow::array::Array;
-use polars_arrow::datatypes::ArrowDataType;
+use polars_arrow::datatypes::Field;
 use polars_error::{PolarsError, PolarsResult};
 use polars_parquet::read::schema::{infer_schema, parquet_to_arrow_schema};
 use polars_parquet::read::{FileMetadata, read_metadata};
@@ -30,6 +30,12 @@ use crate::error::{DataError, Problems};
 
 const MAGIC: &[u8] = b"PAR1";
 
+/// Mark of a file whose footer is encrypted.
+const ENCRYPTED: &[u8] = b"PARE";
+
+/// What to do about an encoding that is not supported.
+const REMEDY: &str = "write the column as 64-bit floats in a common encoding (pyarrow and pandas do so by default)";
+
 thread_local! {
     static QUIET: Cell<bool> = const { Cell::new(false) };
 }
@@ -42,10 +48,20 @@ pub(super) struct ParquetFile {
     path: PathBuf,
     content: Content,
     metadata: FileMetadata,
-    /// How the values of the wanted columns are stored, and how they are read; a column with a problem is left out.
-    columns: BTreeMap<String, (ArrowDataType, Kind)>,
+    /// The wanted columns; one with a problem is left out.
+    columns: BTreeMap<String, Stored>,
     /// Groups of rows of each piece, as many as come to [`PIECE`].
     pub pieces: Vec<Piece>,
+}
+
+/// How a wanted column is stored, and how it is read.
+#[derive(Clone)]
+struct Stored {
+    /// Column of the file.
+    field: Field,
+    /// Element of its lists, if it has lists.
+    element: Option<usize>,
+    kind: Kind,
 }
 
 /// Some groups of rows, and their rows.
@@ -64,9 +80,11 @@ impl ParquetFile {
         problems: &mut Vec<DataError>,
     ) -> Result<Self, DataError> {
         check_ends(path, &content)?;
-        let asked = |column: &str| wanted.columns().contains(&column);
+        let asked = |column: &str| {
+            wanted.columns().iter().any(|name| *name == column || element(name).is_some_and(|e| e.0 == column))
+        };
         let nested = claims::nested(&mut content.reader(), content.size(), &asked);
-        match Self::checked(path, content, wanted, &nested, problems) {
+        match Self::checked(path, content, wanted, (&asked, &nested), problems) {
             // a list or a structure where a column of numbers is wanted is no damage
             Err(damaged @ DataError::Damaged { .. }) => {
                 let unread = nested.iter().map(|(column, kind)| DataError::unread(path, column, kind));
@@ -81,28 +99,30 @@ impl ParquetFile {
         path: &Path,
         content: Content,
         wanted: &Wanted,
-        nested: &[(String, &'static str)],
+        (asked, nested): (&dyn Fn(&str) -> bool, &[(String, &'static str)]),
         problems: &mut Vec<DataError>,
     ) -> Result<Self, DataError> {
-        claims::check(path, &mut content.reader(), content.size(), &|column| wanted.columns().contains(&column))?;
-        let damaged = |reason: String| DataError::Damaged { path: path.to_path_buf(), reason };
+        claims::check(path, &mut content.reader(), content.size(), asked)?;
+        let damaged = |reason: String| DataError::undecoded(path, reason, REMEDY);
         let opened = guarded(|| {
             let metadata = read_metadata(&mut content.reader())?;
             let types = types(&metadata, wanted);
             Ok((metadata, types))
         });
         let (metadata, mut types) = opened.map_err(damaged)?;
-        for (column, kind) in nested {
-            types.entry(column.clone()).and_modify(|(_, of)| *of = Kind::Unread((*kind).into()));
+        for (column, kind) in nested.iter().filter(|(_, kind)| *kind != "list") {
+            types.entry(column.clone()).and_modify(|stored| stored.kind = Kind::Unread((*kind).into()));
         }
-        let names: Vec<String> = metadata.schema().fields().iter().map(|field| field.name().to_string()).collect();
+        let mut names: Vec<String> = metadata.schema().fields().iter().map(|field| field.name().to_string()).collect();
+        let elements = types.iter().filter(|(name, stored)| stored.element.is_some() && !names.contains(name));
+        names.extend(elements.map(|(name, _)| name.clone()).collect::<Vec<_>>());
         let mut found = header::check(path, &names, wanted);
         let mut columns = BTreeMap::new();
         for column in header::present(&names, wanted) {
-            let Some((stored, kind)) = types.get(column) else { continue };
-            match refusal(path, column, kind, wanted) {
+            let Some(stored) = types.get(column) else { continue };
+            match refusal(path, column, &stored.kind, wanted) {
                 Some(problem) => found.push(problem),
-                None => drop(columns.insert(column.to_string(), (stored.clone(), kind.clone()))),
+                None => drop(columns.insert(column.to_string(), stored.clone())),
             }
         }
         if columns.is_empty() {
@@ -116,18 +136,18 @@ impl ParquetFile {
     /// The type of the column of time, where it has one of its own.
     pub fn time_type(&self, wanted: &Wanted) -> Option<&TickType> {
         match self.columns.get(&wanted.time.as_ref()?.column) {
-            Some((_, Kind::Time(of))) => Some(of),
+            Some(Stored { kind: Kind::Time(of), .. }) => Some(of),
             _ => None,
         }
     }
 
     /// Hands out the wanted columns of a piece, one after the other; how many rows they have.
     pub fn read(&self, piece: &Piece, wanted: &Wanted, take: &mut dyn FnMut(&str, &Cells)) -> Result<usize, DataError> {
-        let damaged = |reason| DataError::Damaged { path: self.path.clone(), reason };
+        let damaged = |reason| DataError::undecoded(&self.path, reason, REMEDY);
         let rows = piece.rows.len();
         for name in wanted.columns() {
-            let Some((stored, kind)) = self.columns.get(name) else { continue };
-            let column = guarded(|| self.column(piece, name, stored, kind)).map_err(damaged)?;
+            let Some(stored) = self.columns.get(name) else { continue };
+            let column = guarded(|| self.column(piece, stored)).map_err(damaged)?;
             let values = column.as_ref().map_or(0, Cells::len);
             if values != rows {
                 return Err(damaged(format!("column `{name}` has {values} values in {rows} rows")));
@@ -137,12 +157,13 @@ impl ParquetFile {
         Ok(rows)
     }
 
-    fn column(&self, piece: &Piece, name: &str, stored: &ArrowDataType, kind: &Kind) -> PolarsResult<Option<Cells>> {
+    fn column(&self, piece: &Piece, stored: &Stored) -> PolarsResult<Option<Cells>> {
+        let (name, kind) = (stored.field.name.as_str(), (&stored.kind, stored.element));
         let mut whole: Option<Cells> = None;
         for group in &self.metadata.row_groups[piece.groups.clone()] {
             let none = || PolarsError::ComputeError(format!("column `{name}` is not in every group of rows").into());
             let column = group.columns_under_root_iter(name).and_then(|mut c| c.next()).ok_or_else(none)?;
-            let cells = decode::cells(&mut self.content.reader(), column, stored, kind)?;
+            let cells = decode::cells(&mut self.content.reader(), column, &stored.field, kind)?;
             match &mut whole {
                 Some(before) => before.extend(cells),
                 None => whole = Some(cells),
@@ -154,15 +175,40 @@ impl ParquetFile {
 
 /// The types of the columns. What the Parquet types say holds for the bytes; the Arrow schema beside it adds types that
 /// Parquet has no name for.
-fn types(metadata: &FileMetadata, wanted: &Wanted) -> BTreeMap<String, (ArrowDataType, Kind)> {
+fn types(metadata: &FileMetadata, wanted: &Wanted) -> BTreeMap<String, Stored> {
     let stored = parquet_to_arrow_schema(metadata.schema().fields());
     let named = infer_schema(metadata).ok();
     let of = |column: &str| {
-        let stored = kind::in_schema(&stored, column)?;
-        let named = named.as_ref().and_then(|schema| kind::in_schema(schema, column));
-        Some((column.to_string(), (stored.clone(), Kind::of(stored, named))))
+        let (root, element) = match element(column).filter(|_| !stored.contains(column)) {
+            Some((root, element)) => (root, Some(element)),
+            None => (column, None),
+        };
+        let field = stored.get(root)?.clone();
+        let named = named.as_ref().and_then(|schema| kind::in_schema(schema, root));
+        let (element, kind) = match kind::of_list(&field.dtype, named) {
+            Some(kind) if element.is_some() => (element, kind),
+            Some(kind) if has_single_values(metadata, root) => (Some(0), kind),
+            Some(_) => (Some(0), Kind::Lists),
+            None if element.is_some() => return None,
+            None => (None, Kind::of(&field.dtype, named)),
+        };
+        Some((column.to_string(), Stored { field, element, kind }))
     };
     wanted.columns().into_iter().filter_map(of).collect()
+}
+
+/// Column and index of `action[1]`.
+fn element(name: &str) -> Option<(&str, usize)> {
+    let (root, index) = name.strip_suffix(']')?.rsplit_once('[')?;
+    Some((root, index.parse().ok()?))
+}
+
+/// Whether the lists of a column have one value each.
+fn has_single_values(metadata: &FileMetadata, root: &str) -> bool {
+    metadata.row_groups.iter().all(|group| {
+        let mut columns = group.columns_under_root_iter(root).into_iter().flatten();
+        columns.all(|column| column.num_values() as usize == group.num_rows())
+    })
 }
 
 /// Refusal of a column of this type.
@@ -174,6 +220,7 @@ fn refusal(path: &Path, column: &str, kind: &Kind, wanted: &Wanted) -> Option<Da
     };
     match kind {
         Kind::Unread(kind) => Some(DataError::unread(&path, column, kind)),
+        Kind::Lists => what("list", "hold several numbers each", "name one of them, as in `action[0]`"),
         Kind::Time(of) if time.is_none() => {
             what(&of.name, "are times and not numbers", "name another column, or write this one as 64-bit floats")
         }
@@ -206,6 +253,9 @@ pub(crate) fn check_ends(path: &Path, content: &Content) -> Result<(), DataError
     let (start, end) = content.ends().map_err(|e| DataError::file_system("read", path, &e))?;
     let size = content.size();
     let damaged = |reason: String| Err(DataError::Damaged { path: path.to_path_buf(), reason });
+    if start.starts_with(ENCRYPTED) {
+        return Err(claims::encrypted(path));
+    }
     if size < 12 || !start.starts_with(MAGIC) {
         return damaged("the file does not begin as a Parquet file".into());
     }
@@ -236,7 +286,7 @@ pub(crate) fn columns(content: &Content) -> PolarsResult<Vec<(String, Vec<Box<dy
     for (name, field) in schema.iter() {
         let mut arrays = vec![];
         for column in metadata.row_groups.iter().filter_map(|group| group.columns_under_root_iter(name)?.next()) {
-            arrays.extend(decode::arrays(&mut content.reader(), column, &field.dtype)?);
+            arrays.extend(decode::arrays(&mut content.reader(), column, field)?);
         }
         columns.push((name.to_string(), arrays));
     }

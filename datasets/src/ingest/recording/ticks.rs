@@ -20,6 +20,8 @@ pub(crate) struct TickType {
     pub seconds: i64,
     /// Whether it counts from an origin of its own.
     pub duration: bool,
+    /// Whether it is a date without a zone, which a change to or from daylight saving time moves.
+    pub local: bool,
 }
 
 /// The column of time of one recording.
@@ -36,6 +38,16 @@ impl Ticks {
         Ticks { kind: self.kind.clone(), values: samples.iter().map(|i| self.values[*i]).collect() }
     }
 
+    /// Time of day at which the clock was set back by an hour, if it was between two samples: the first, as `02:59:59.980`.
+    pub fn set_back(&self, first: usize, second: usize) -> Option<String> {
+        let seconds = |tick: i64| tick as f64 * self.kind.seconds as f64 / self.kind.per_second as f64;
+        let (before, after) = (self.values[first]?, self.values[second]?);
+        let an_hour = (3540.0..=3660.0).contains(&seconds(before.saturating_sub(after)));
+        let day = seconds(before.rem_euclid(86_400 * self.kind.per_second / self.kind.seconds));
+        let (hours, minutes) = (day as u32 / 3600, day as u32 / 60 % 60);
+        (self.kind.local && an_hour).then(|| format!("{hours:02}:{minutes:02}:{:06.3}", day % 60.0))
+    }
+
     /// Time of the samples of one trial, s; NaN for an empty cell.
     pub fn seconds(&self, samples: &[usize]) -> Vec<f64> {
         let first = samples.iter().find_map(|i| self.values[*i]).filter(|_| !self.kind.duration).unwrap_or(0);
@@ -50,7 +62,7 @@ mod tests {
     use super::*;
 
     fn ticks(per_second: i64, seconds: i64, duration: bool, values: &[i64]) -> Vec<f64> {
-        let kind = TickType { name: String::new(), unit: "", per_second, seconds, duration };
+        let kind = TickType { name: String::new(), unit: "", per_second, seconds, duration, local: false };
         let ticks = Ticks { kind, values: values.iter().copied().map(Some).collect() };
         ticks.seconds(&(0..values.len()).collect::<Vec<_>>())
     }

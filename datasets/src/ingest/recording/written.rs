@@ -4,15 +4,15 @@
 pub(super) fn written(cell: &str, time: bool) -> (&'static str, &'static str) {
     let number = |text: String| text.parse::<f64>().is_ok();
     let dates = match time {
-        true => {
-            "write the seconds since the start of the recording, or save the table as Parquet, whose timestamps are read"
-        }
+        true => "write it as ISO 8601, such as 2026-11-03T10:00:00.125Z, or as seconds",
         false => "write a number, or name another column in the manifest",
     };
     if number(cell.replacen(',', ".", 1)) {
         (": it has a decimal comma", "write a decimal point (pandas: to_csv with decimal=\".\")")
-    } else if is_date(cell) {
+    } else if is_date_of_iso(cell) {
         (" but a date", dates)
+    } else if is_other_date(cell) {
+        (": it is a date of another form", dates)
     } else if is_clock(cell) {
         (" but a time of day", dates)
     } else if number(cell.replace('\u{2212}', "-").replace(['\u{2013}', '\u{2014}'], "-")) {
@@ -29,8 +29,20 @@ pub(super) fn written(cell: &str, time: bool) -> (&'static str, &'static str) {
 }
 
 /// ISO 8601: `2026-11-03`, and whatever follows a `T` or a space.
-fn is_date(cell: &str) -> bool {
+fn is_date_of_iso(cell: &str) -> bool {
     shaped(cell, "0000-00-00") && matches!(cell.as_bytes().get(10), None | Some(b'T' | b't' | b' '))
+}
+
+/// `3.11.2026`, `11/03/26 10:00`, `2026/11/03`, `3-Nov-2026`.
+fn is_other_date(cell: &str) -> bool {
+    let day = cell.split([' ', 'T']).next().unwrap_or_default();
+    let digits = |part: &str| part.bytes().all(|byte| byte.is_ascii_digit());
+    let month = |part: &str| part.len() == 3 && part.bytes().all(|byte| byte.is_ascii_alphabetic());
+    let part = |part: &&str| (matches!(part.len(), 1 | 2 | 4) && digits(part)) || month(part);
+    let is_date = |parts: Vec<&str>| {
+        parts.len() == 3 && parts.iter().all(part) && (parts[2].len() == 2 || parts.iter().any(|part| part.len() == 4))
+    };
+    ['.', '/', '-'].into_iter().any(|sign| is_date(day.split(sign).collect()))
 }
 
 /// `9:30`, `09:30:00`, `09:30:00.125`.
@@ -58,7 +70,10 @@ mod tests {
         for clock in ["12:30", "9:30", "09:30:00.125"] {
             assert_eq!(what(clock), " but a time of day", "{clock}");
         }
-        for other in ["2026-11-03x", "2026-1-3", "1.2.3", ":30", "a2:30", "123:40", "ä0:00"] {
+        for date in ["25.10.2026 10:00:00.000", "03/11/2026", "2026/11/03 10:00", "2026-1-3", "3-Nov-2026"] {
+            assert_eq!(what(date), ": it is a date of another form", "{date}");
+        }
+        for other in ["2026-11-03x", "1.2.3", "1.234.567", ":30", "a2:30", "123:40", "ä0:00"] {
             assert_eq!(what(other), "", "{other}");
         }
         assert_eq!(what("-3,5e2"), ": it has a decimal comma");

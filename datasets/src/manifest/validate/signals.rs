@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::Check;
+use crate::join::Rule;
 use crate::manifest::{Manifest, Measured, Signal};
 use crate::units::Dimension;
 
@@ -10,6 +11,12 @@ impl Check<'_> {
     pub(super) fn signals(&mut self, list: &str, signals: &[Signal]) {
         for (i, signal) in signals.iter().enumerate() {
             let dimension = self.column(list, i, &signal.column, &signal.unit);
+            if signal.fill == Some(Rule::None) {
+                self.say(
+                    &[list, &i.to_string(), "fill"],
+                    "`fill` is \"previous\" or \"linear\"; choose one, or delete it",
+                );
+            }
             let Some(quantity) = signal.quantity else { continue };
             let (key, name) = ([list, &i.to_string(), "quantity"], quantity.name());
             if list != "context" {

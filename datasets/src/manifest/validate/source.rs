@@ -1,6 +1,6 @@
 //! `[[source]]`: files, clocks, offsets.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::Check;
 use crate::manifest::{Clock, Drift, Manifest, OffsetTable, Source, Table};
@@ -61,21 +61,13 @@ impl Check<'_> {
         } else if source.is_reference() {
             self.say(&["source", number, "shared"], "the reference has one file for each trial; delete `shared`");
         }
-        if let Some(separator) = source.separator.as_deref().filter(|s| ![",", ";", "\t", "|", " "].contains(s)) {
-            let message = format!("separator {separator:?} is not one of \",\" \";\" \"\\t\" \"|\" and a space");
-            self.say(&["source", number, "separator"], message);
-        }
-        if let Some(decimal) = source.decimal.as_deref().filter(|decimal| ![",", "."].contains(decimal)) {
-            let message = format!("decimal {decimal:?} is neither \",\" nor \".\"");
-            self.say(&["source", number, "decimal"], message);
-        }
+        self.signs(&["source", number], source.separator.as_deref(), source.decimal.as_deref());
         let key = ["source", number, "time"];
         match (source.format, source.time == Default::default()) {
             (Some(format), false) if !format.is_table() => {
                 self.say(&key, format!("files of format {} have times of their own; delete `time`", format.name()));
             }
-            // times that are written as dates carry their unit
-            (_, false) => self.clock_of(&key, &source.time, &["*".to_string()]),
+            (_, false) => self.clock_of(&key, &source.time),
             (Some(_), true) if source.format.is_some_and(crate::formats::Format::is_table) => {
                 let forms = "{ column = \"t\", unit = \"s\" } or { rate_hz = 20.0 }";
                 self.say(&key, format!("`time` of a table is missing; say time = {forms}"));
@@ -154,12 +146,27 @@ impl Check<'_> {
     }
 
     fn source_columns(&mut self, number: &str, source: &Source, manifest: &Manifest) {
-        for (i, column) in source.angles.iter().enumerate() {
-            if manifest.angle_period(&source.name, column).is_none() {
-                let message =
-                    format!("{column:?} is declared nowhere with a unit of an angle; declare it, or delete it here");
-                self.say(&["source", number, "angles", &i.to_string()], message);
-            }
+        let full = |column: &String| format!("{}.{column}", source.name);
+        let angles: Vec<String> = source.angles.iter().map(full).collect();
+        self.periodic(&["source", number], &angles, &source.counters, manifest);
+    }
+
+    /// Angles have a unit of an angle, and counters a range.
+    pub(super) fn periodic(
+        &mut self,
+        key: &[&str],
+        angles: &[String],
+        counters: &BTreeMap<String, f64>,
+        manifest: &Manifest,
+    ) {
+        for (i, column) in angles.iter().enumerate().filter(|(_, column)| manifest.turn(column).is_none()) {
+            let message =
+                format!("{column:?} is declared nowhere with a unit of an angle; declare it, or delete it here");
+            self.say(&[key, &["angles", &i.to_string()]].concat(), message);
+        }
+        for (column, range) in counters.iter().filter(|(_, range)| !(range.is_finite() && **range > 0.0)) {
+            let message = format!("the range of a counter is {range}; write how many values it has, such as 65536");
+            self.say(&[key, &["counters", column]].concat(), message);
         }
     }
 }

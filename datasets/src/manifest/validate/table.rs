@@ -1,14 +1,15 @@
 //! Tables: files, names of trials, time.
 
 use super::Check;
-use crate::manifest::{Table, Time, TrialName};
+use crate::manifest::{Manifest, Time, TrialName};
 use crate::units::Dimension;
 
 /// Rates that recordings have, Hz: a sample in eleven days to one in a microsecond.
 const RATES: std::ops::RangeInclusive<f64> = 1e-6..=1e6;
 
 impl Check<'_> {
-    pub(super) fn table(&mut self, table: &Table) {
+    pub(super) fn table(&mut self, manifest: &Manifest) {
+        let table = &manifest.table;
         if table.files.is_empty() {
             self.say(&["table"], "`files` is missing in [table]; name the data files, e.g. files = [\"*.csv\"]");
         }
@@ -20,12 +21,34 @@ impl Check<'_> {
                 format!("{folder:?} leaves the shared data; write a path below it, such as \"data/arm\""),
             );
         }
-        if let Some(separator) = table.separator.as_deref().filter(|s| ![",", ";", "\t", "|", " "].contains(s)) {
-            let message = format!("separator {separator:?} is not one of \",\" \";\" \"\\t\" \"|\" and a space");
-            self.say(&["table", "separator"], message);
-        }
+        self.signs(&["table"], table.separator.as_deref(), table.decimal.as_deref());
         self.trial_name(&table.trial);
-        self.clock_of(&["table", "time"], &table.time, &table.files);
+        self.clock_of(&["table", "time"], &table.time);
+        self.periodic(&["table"], &table.angles, &table.counters, manifest);
+        let columns: Vec<String> = manifest.signal_columns().into_iter().map(|(_, _, column, _)| column).collect();
+        for (i, four) in table.quaternions.iter().enumerate() {
+            if let Some(part) = four.iter().find(|part| !columns.contains(part)) {
+                let message = format!("{part:?} is declared nowhere; declare it, or delete the quaternion here");
+                self.say(&["table", "quaternions", &i.to_string()], message);
+            }
+        }
+    }
+
+    /// Separators of cells and before fractions.
+    pub(super) fn signs(&mut self, key: &[&str], separator: Option<&str>, decimal: Option<&str>) {
+        if let Some(separator) = separator.filter(|s| ![",", ";", "\t", "|", " "].contains(s)) {
+            let message =
+                format!("separator {separator:?} is not one of \",\" \";\" \"\\t\" \"|\" and a space; choose one");
+            self.say(&[key, &["separator"]].concat(), message);
+        }
+        if let Some(decimal) = decimal.filter(|decimal| ![",", "."].contains(decimal)) {
+            self.say(
+                &[key, &["decimal"]].concat(),
+                format!("decimal {decimal:?} is neither \",\" nor \".\"; choose one"),
+            );
+        } else if decimal.is_some() && decimal == separator {
+            self.say(&[key, &["decimal"]].concat(), "`separator` and `decimal` are the same sign; correct one of them");
+        }
     }
 
     pub(super) fn patterns(&mut self, list: &[&str], patterns: &[String]) {
@@ -70,7 +93,7 @@ impl Check<'_> {
         }
     }
 
-    pub(super) fn clock_of(&mut self, key: &[&str], time: &Time, files: &[String]) {
+    pub(super) fn clock_of(&mut self, key: &[&str], time: &Time) {
         if let Some(rate) = time.rate_hz.filter(|rate| !RATES.contains(rate)) {
             let message = match rate.is_finite() && rate > 0.0 {
                 true => format!(
@@ -90,11 +113,8 @@ impl Check<'_> {
             (Some(_), None, Some(_)) => {
                 self.say(key, "`column` and `rate_hz` without `unit`; add unit = \"sample\", or delete rate_hz");
             }
-            // a column of Parquet may have a type of time, which carries its unit
-            (Some(_), None, None) if files.iter().any(|file| !ends_in_csv(file)) => {}
-            (Some(_), None, None) => {
-                self.say(key, "the unit of `time` is missing; add unit = \"s\" or \"sample\"");
-            }
+            // dates, and columns of a type of time, carry their unit
+            (Some(_), None, None) => {}
             (Some(_), Some(unit), rate) => match self.unit(&[key, &["unit"]].concat(), unit) {
                 Some(Dimension::Sample) if rate.is_none() => {
                     self.say(key, "time counts samples; add rate_hz, the samples per second");
@@ -110,10 +130,6 @@ impl Check<'_> {
             (None, None, Some(_)) => {}
         }
     }
-}
-
-fn ends_in_csv(pattern: &str) -> bool {
-    pattern.to_lowercase().ends_with(".csv")
 }
 
 fn leaves_folder(path: &str) -> bool {

@@ -117,7 +117,10 @@ impl Reader<'_> {
         let k = (1..time.len()).find(|&k| time[k] <= time[k - 1])?;
         let (path, row, column, before, after) = (self.path(), self.row(k), column.to_string(), time[k - 1], time[k]);
         Some(match after < before {
-            true => DataError::TimeReversed { path, row, column, before, after, more: More::default() },
+            true => {
+                let (more, remedy) = (More::default(), "sort the rows of the sequence by time".into());
+                DataError::TimeReversed { path, row, column, before, after, more, remedy }
+            }
             false => DataError::TimeStill { path, row, column, at: after, more: More::default() },
         })
     }

@@ -44,6 +44,8 @@ const CODECS: &[(&str, bool)] = &[
 /// A column of a group.
 struct Chunk {
     column: String,
+    /// Its values stand in lists or structures.
+    nested: bool,
     start: u64,
     end: u64,
     values: u64,
@@ -70,7 +72,8 @@ pub(super) fn check(
         rows = rows.saturating_add(of_group);
         for column in group.list(1) {
             let Some(chunk) = chunk(path, column, length, wanted).transpose()? else { continue };
-            if chunk.values != of_group {
+            // a list has as many values as it is long, or one that says that it is empty
+            if chunk.values < of_group || (chunk.values > of_group && !chunk.nested) {
                 let what = format!("column `{}` has {} values in {of_group} rows", chunk.column, chunk.values);
                 return Err(refuse(what));
             }
@@ -149,12 +152,16 @@ fn after(elements: &[Value], at: usize, depth: usize) -> usize {
 /// Claims of a group about one column; nothing for a column that is not wanted.
 fn chunk(path: &Path, column: &Value, length: u64, wanted: &dyn Fn(&str) -> bool) -> Option<Result<Chunk, DataError>> {
     let damaged = |reason: &str| DataError::Damaged { path: path.to_path_buf(), reason: reason.to_string() };
+    if column.field(8).is_some() {
+        return Some(Err(encrypted(path)));
+    }
     let Some(about) = column.field(3) else { return Some(Err(damaged("a column of the footer says nothing"))) };
     let name: Vec<String> = about.list(3).iter().filter_map(Value::text).collect();
-    let column = name.join(".");
-    if !wanted(&column) {
+    let (root, nested) = (name.first().cloned().unwrap_or_default(), name.len() > 1);
+    if !wanted(&root) {
         return None;
     }
+    let column = name.join(".");
     Some(match (about.number(4), count(about, 5), count(about, 7), count(about, 9)) {
         (Some(codec), _, _, _) if !known(codec) => {
             let codec = usize::try_from(codec).ok().and_then(|c| CODECS.get(c)).map_or("an unknown codec", |c| c.0);
@@ -164,12 +171,18 @@ fn chunk(path: &Path, column: &Value, length: u64, wanted: &dyn Fn(&str) -> bool
             let start = count(about, 11).filter(|dictionary| *dictionary > 0).map_or(data, |d| d.min(data));
             let end = start.saturating_add(size);
             match end <= length {
-                true => Ok(Chunk { column, start, end, values }),
+                true => Ok(Chunk { column, nested, start, end, values }),
                 false => Err(damaged(&format!("column `{column}` would end at byte {end} of {length}"))),
             }
         }
         _ => Err(damaged(&format!("the footer does not say where column `{column}` stands"))),
     })
+}
+
+/// A file, or a column of it, that is encrypted.
+pub(super) fn encrypted(path: &Path) -> DataError {
+    let (what, remedy) = ("it is encrypted".to_string(), "write it without encryption");
+    DataError::Unsupported { path: path.to_path_buf(), what, remedy }
 }
 
 fn known(codec: i64) -> bool {

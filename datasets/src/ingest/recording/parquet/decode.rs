@@ -3,8 +3,8 @@
 use std::io::{Cursor, Read, Seek, SeekFrom};
 
 use half::f16;
-use polars_arrow::array::{Array, BooleanArray, FixedSizeBinaryArray, PrimitiveArray, Utf8ViewArray};
-use polars_arrow::datatypes::{ArrowDataType, Field};
+use polars_arrow::array::{Array, BooleanArray, FixedSizeBinaryArray, ListArray, PrimitiveArray, Utf8ViewArray};
+use polars_arrow::datatypes::Field;
 use polars_arrow::types::NativeType;
 use polars_buffer::Buffer;
 use polars_error::{PolarsError, PolarsResult};
@@ -16,14 +16,17 @@ use crate::ingest::recording::cells::{Cells, Texts};
 
 type Arrays = Vec<Box<dyn Array>>;
 
-/// The cells of a column that is stored as `stored`.
+/// The cells of a column, or of one element of its lists.
 pub(super) fn cells(
     file: &mut (impl Read + Seek),
     column: &ColumnChunkMetadata,
-    stored: &ArrowDataType,
-    kind: &Kind,
+    field: &Field,
+    (kind, element): (&Kind, Option<usize>),
 ) -> PolarsResult<Cells> {
-    let arrays = arrays(file, column, stored)?;
+    let arrays = arrays(file, column, field)?;
+    if let Some(element) = element {
+        return elements(&arrays, kind, element).map(Cells::Numbers);
+    }
     Ok(match kind {
         Kind::Text => Cells::Text(texts(&arrays)?),
         Kind::Numbers => Cells::Numbers(all(&arrays, numbers)?),
@@ -31,6 +34,7 @@ pub(super) fn cells(
         Kind::Halves => Cells::Numbers(all(&arrays, halves)?),
         Kind::Decimals(scale) => Cells::Numbers(all(&arrays, |array| decimals(array, *scale))?),
         Kind::Time(of) => Cells::Ticks(of.clone(), all(&arrays, whole)?),
+        Kind::Lists => return Err(PolarsError::ComputeError("lists of several numbers".into())),
         Kind::Unread(name) => return Err(PolarsError::ComputeError(name.clone().into())),
     })
 }
@@ -45,11 +49,32 @@ fn texts(arrays: &Arrays) -> PolarsResult<Texts> {
     Ok(texts)
 }
 
-/// The arrays of a column that is stored as `stored`.
+/// One element of each list; none of a list that is shorter.
+fn elements(arrays: &Arrays, kind: &Kind, element: usize) -> PolarsResult<Vec<Option<f64>>> {
+    let mut found = Vec::new();
+    for array in arrays {
+        let other = || PolarsError::ComputeError(format!("values of type {:?}", array.dtype()).into());
+        let lists: &ListArray<i64> = array.as_any().downcast_ref().ok_or_else(other)?;
+        let values = match kind {
+            Kind::Whole => {
+                wide(lists.values().as_ref()).map(|all| all.into_iter().map(|v| v.map(|v| v as f64)).collect())
+            }
+            Kind::Halves => halves(lists.values().as_ref()),
+            Kind::Decimals(scale) => decimals(lists.values().as_ref(), *scale),
+            _ => numbers(lists.values().as_ref()),
+        };
+        let values: Vec<Option<f64>> = values.ok_or_else(other)?;
+        let of = |range: &[i64]| (range[0] as usize..range[1] as usize).nth(element).and_then(|at| values[at]);
+        found.extend(lists.offsets().as_slice().windows(2).map(of));
+    }
+    Ok(found)
+}
+
+/// The arrays of a column.
 pub(super) fn arrays(
     file: &mut (impl Read + Seek),
     column: &ColumnChunkMetadata,
-    stored: &ArrowDataType,
+    field: &Field,
 ) -> PolarsResult<Arrays> {
     let range = column.byte_range();
     let mut bytes = Vec::new();
@@ -57,7 +82,11 @@ pub(super) fn arrays(
     file.take(range.end.saturating_sub(range.start)).read_to_end(&mut bytes)?;
     let pages = PageReader::new(Cursor::new(Buffer::from(bytes)), column, vec![], usize::MAX);
     let of = &column.descriptor().descriptor.primitive_type;
-    let field = Field::new(PlSmallStr::EMPTY, stored.clone(), true);
+    // the levels of lists depend on what may be empty; a plain column is read as one that may be
+    let field = match field.dtype.is_nested() {
+        true => field.clone(),
+        false => Field::new(PlSmallStr::EMPTY, field.dtype.clone(), true),
+    };
     Ok(column_iter_to_arrays(vec![BasicDecompressor::new(pages, vec![])], vec![of], field, None)?.0)
 }
 

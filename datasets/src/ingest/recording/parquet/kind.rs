@@ -7,7 +7,8 @@
 //! | floats of 16 bits, decimals of up to 38 digits    | numbers                                 |
 //! | text, also as a dictionary (categories)           | names of trials, or numbers as text     |
 //! | timestamps, dates, times of day, durations        | the column of time                      |
-//! | lists, structures, maps, bytes, 128 bits and more | nothing: the type is named              |
+//! | lists of numbers                                  | columns `action[0]`, `action[1]`, …     |
+//! | structures, maps, bytes, 128 bits and more        | nothing: the type is named              |
 
 use polars_arrow::datatypes::{ArrowDataType, ArrowSchema, TimeUnit};
 
@@ -28,6 +29,8 @@ pub(super) enum Kind {
     Decimals(usize),
     Text,
     Time(TickType),
+    /// Lists of several numbers.
+    Lists,
     /// A type that is not read, by its name.
     Unread(String),
 }
@@ -39,7 +42,9 @@ impl Kind {
         match (stored, named.map(storage)) {
             (T::Int64, Some(T::Duration(unit))) => Kind::Time(ticks("duration", *unit, true)),
             (T::FixedSizeBinary(2), Some(T::Float16)) => Kind::Halves,
-            (T::Timestamp(unit, _), _) => Kind::Time(ticks("timestamp", *unit, false)),
+            (T::Timestamp(unit, zone), _) => {
+                Kind::Time(TickType { local: zone.is_none(), ..ticks("timestamp", *unit, false) })
+            }
             (T::Time32(unit), _) => Kind::Time(ticks("time32", *unit, false)),
             (T::Time64(unit), _) => Kind::Time(ticks("time64", *unit, false)),
             (T::Date32, _) => Kind::Time(days()),
@@ -51,6 +56,18 @@ impl Kind {
             (stored, named) => Kind::Unread(name(named.unwrap_or(stored))),
         }
     }
+}
+
+/// Kind of the elements of a column of lists; `None` if it has no lists of numbers.
+pub(super) fn of_list(stored: &ArrowDataType, named: Option<&ArrowDataType>) -> Option<Kind> {
+    let inner = |of: &ArrowDataType| match of {
+        ArrowDataType::List(inner) | ArrowDataType::LargeList(inner) | ArrowDataType::FixedSizeList(inner, _) => {
+            Some(inner.dtype.clone())
+        }
+        _ => None,
+    };
+    let kind = Kind::of(&inner(stored)?, named.and_then(|named| inner(storage(named))).as_ref());
+    Some(kind).filter(|kind| matches!(kind, Kind::Numbers | Kind::Whole | Kind::Halves | Kind::Decimals(_)))
 }
 
 /// The type that holds the values of an extension or of a dictionary.
@@ -79,11 +96,11 @@ fn ticks(name: &str, unit: TimeUnit, duration: bool) -> TickType {
         TimeUnit::Microsecond => ("us", 1_000_000),
         TimeUnit::Nanosecond => ("ns", 1_000_000_000),
     };
-    TickType { name: format!("{name}[{unit}]"), unit, per_second, seconds: 1, duration }
+    TickType { name: format!("{name}[{unit}]"), unit, per_second, seconds: 1, duration, local: false }
 }
 
 fn days() -> TickType {
-    TickType { name: "date32[day]".into(), unit: "", per_second: 1, seconds: 86_400, duration: false }
+    TickType { name: "date32[day]".into(), unit: "", per_second: 1, seconds: 86_400, duration: false, local: false }
 }
 
 /// As pyarrow prints it, without what is within.

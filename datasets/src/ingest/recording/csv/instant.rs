@@ -1,7 +1,7 @@
-//! Dates and times of day, converted to seconds from the first.
+//! Dates and times of day (ISO 8601), as ticks of a nanosecond.
 //!
 //! ```text
-//! 2026-11-03T10:00:00.125+01:00    2026-11-03 10:00:00    10:00:00.125
+//! 2026-11-03T10:00:00.125+01:00    2026-11-03 10:00:00,125    10:00:00.125
 //! ```
 //!
 //! Days from 1970 by the civil calendar (Hinnant 2013, "chrono-compatible low-level date algorithms"), times in whole nanoseconds.
@@ -9,7 +9,11 @@
 
 use std::path::Path;
 
+use super::missing::is_missing;
 use crate::error::{DataError, shown};
+use crate::ingest::recording::cells::Texts;
+use crate::ingest::recording::header::visible;
+use crate::ingest::recording::ticks::TickType;
 
 const SECOND: i128 = 1_000_000_000;
 const DAY: i128 = 86_400 * SECOND;
@@ -22,29 +26,40 @@ struct Instant {
     zoned: bool,
 }
 
-/// Rewrites the cells of a column, where its first is an instant; whether it was.
-pub(super) fn seconds(
-    path: &Path,
-    rows: &mut [Vec<String>],
-    at: usize,
-    first_row: usize,
+/// Whether a cell is a date or a time of day that [`ticks`] reads.
+pub(super) fn is_instant(cell: &str) -> bool {
+    instant(cell).is_some()
+}
+
+/// The cells of a column as instants in ns; `None` if the first is none, or a number follows it. An empty cell stays
+/// empty.
+///
+/// # Errors
+/// A cell that differs in form from the first, with its row.
+pub(super) fn ticks(
+    (path, column): (&Path, &str),
+    cells: &Texts,
+    row: impl Fn(usize) -> usize,
     notes: &mut Vec<String>,
-) -> Result<bool, DataError> {
-    let Some(first) = rows.get(1).and_then(|row| instant(row.get(at)?)) else { return Ok(false) };
-    let (mut before, mut midnights) = (first.nanoseconds, 0);
-    for (i, row) in rows.iter_mut().enumerate().skip(1) {
-        let Some(cell) = row.get_mut(at) else { continue };
-        let bad = |what: String| {
-            let remedy = "write every time in one form, such as 2026-11-03T10:00:00.125Z";
-            DataError::BadText { path: path.to_path_buf(), row: i - 1 + first_row, what, remedy }
+) -> Result<Option<(TickType, Vec<Option<i64>>)>, DataError> {
+    let mut written = cells.iter().filter(|cell| !is_missing(cell.trim()));
+    let first = written.next().and_then(instant);
+    let is_number = written.next().is_some_and(|cell| cell.trim().parse::<f64>().is_ok());
+    let Some(first) = first.filter(|_| !is_number) else { return Ok(None) };
+    let (mut ticks, mut before, mut midnights) = (Vec::with_capacity(cells.len()), first.nanoseconds, 0);
+    for (i, cell) in cells.iter().enumerate() {
+        if is_missing(cell.trim()) {
+            ticks.push(None);
+            continue;
+        }
+        let bad = |what: &str| {
+            let what = format!("column `{}`: {:?} {what}", visible(column), shown(cell));
+            let (what, remedy) = (what, "write every time in one form, such as 2026-11-03T10:00:00.125Z");
+            DataError::BadText { path: path.to_path_buf(), row: row(i), what, remedy }
         };
-        let found =
-            instant(cell).ok_or_else(|| bad(format!("{:?} is no time of the form of the first row", shown(cell))))?;
+        let found = instant(cell).ok_or_else(|| bad("is not a time of the form of the first row"))?;
         if found.dated != first.dated || found.zoned != first.zoned {
-            return Err(bad(format!(
-                "{:?} has a date or a zone where the first row has none, or none where it has one",
-                shown(cell)
-            )));
+            return Err(bad("has a date or a zone and the first row has none, or the reverse"));
         }
         let mut nanoseconds = found.nanoseconds + midnights * DAY;
         if !found.dated && before - nanoseconds > DAY / 2 {
@@ -52,26 +67,18 @@ pub(super) fn seconds(
             nanoseconds += DAY;
         }
         before = nanoseconds;
-        *cell = decimal(nanoseconds - first.nanoseconds);
+        ticks.push(Some(i64::try_from(nanoseconds).map_err(|_| bad("is not between the years 1678 and 2262"))?));
     }
     let kind = match (first.dated, first.zoned) {
         (true, true) => "dates with zones",
         (true, false) => "dates without a zone",
         (false, _) => "times of day",
     };
-    notes.push(format!("time is written as {kind}: it becomes seconds from the first row"));
-    if midnights > 0 {
-        notes.push(format!("the clock passes midnight {midnights} times"));
-    }
-    Ok(true)
-}
-
-/// Seconds as a decimal number, without trailing zeros.
-fn decimal(nanoseconds: i128) -> String {
-    let sign = if nanoseconds < 0 { "-" } else { "" };
-    let size = nanoseconds.abs();
-    let text = format!("{sign}{}.{:09}", size / SECOND, size % SECOND);
-    text.trim_end_matches('0').trim_end_matches('.').to_string()
+    notes.push(format!("time is written as {kind}"));
+    notes.extend((midnights > 0).then(|| format!("the clock passes midnight {midnights} times")));
+    let name = if first.dated { "date" } else { "time of day" }.to_string();
+    let local = first.dated && !first.zoned;
+    Ok(Some((TickType { name, unit: "s", per_second: 1_000_000_000, seconds: 1, duration: false, local }, ticks)))
 }
 
 fn instant(cell: &str) -> Option<Instant> {
@@ -130,8 +137,8 @@ fn of_day(clock: &str) -> Option<i128> {
     let whole =
         |part: &str| part.parse::<i128>().ok().filter(|_| part.len() <= 2 && part.bytes().all(|b| b.is_ascii_digit()));
     let (hours, minutes) = (whole(parts.next()?)?, whole(parts.next()?)?);
-    let (seconds, fraction) =
-        parts.next().unwrap_or("0").split_once('.').unwrap_or((clock.splitn(3, ':').nth(2).unwrap_or("0"), ""));
+    let seconds = parts.next().unwrap_or("0");
+    let (seconds, fraction) = seconds.split_once(['.', ',']).unwrap_or((seconds, ""));
     let seconds = whole(seconds)?;
     let digits: String = fraction.chars().chain("000000000".chars()).take(9).collect();
     let nanoseconds: i128 = digits.parse().ok().filter(|_| fraction.bytes().all(|byte| byte.is_ascii_digit()))?;
