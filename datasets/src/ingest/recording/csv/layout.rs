@@ -77,10 +77,22 @@ fn named(text: &str) -> (Option<char>, usize) {
     }
 }
 
-/// The first lines.
+/// The first lines, up to a line end outside of quotes.
 fn head(text: &str) -> &str {
-    let end = memchr::memchr_iter(b'\n', text.as_bytes()).nth(LOOKED_AT);
-    &text[..end.unwrap_or(text.len())]
+    let (mut quotes, mut lines, mut end) = (0, 0, 0);
+    for at in memchr::memchr2_iter(b'\n', b'"', text.as_bytes()) {
+        match text.as_bytes()[at] {
+            b'"' => quotes += 1,
+            _ => {
+                lines += 1;
+                end = if quotes % 2 == 0 { at } else { end };
+            }
+        }
+        if lines > LOOKED_AT && end > 0 {
+            return &text[..end];
+        }
+    }
+    text
 }
 
 fn view(path: &Path, head: &str, separator: char, skipped: usize, wanted: &[&str]) -> Result<View, DataError> {
