@@ -15,7 +15,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use acm_datasets::{Campaign, Role};
+use acm_datasets::{Campaign, Role, files::regular};
 use acm_trace::{close::Closed, finding::NetworkRow};
 use acm_train::config::{self, Experiment, Nominal, Source};
 use acm_train::run::evaluation::held_out::{errors, same_targets};
@@ -105,7 +105,7 @@ impl<'a> Trainings<'a> {
     ) -> Result<Vec<NetworkRow>, EvalError> {
         let comparator_degree = self.experiment.nominal.comparator_degree;
         let augmented = Nominal { augmented: Some(absolute(model)), comparator_degree, ..Nominal::default() };
-        let text = fs::read_to_string(model).map_err(|source| EvalError::read(model, source))?;
+        let text = regular::read_to_string(model).map_err(|source| EvalError::read(model, source))?;
         let bare = self.train(self.experiment.clone(), "", &out.join("nominal"), progress, stop)?;
         let experiment = Experiment { nominal: augmented, ..self.experiment.clone() };
         let with = self.train(experiment, &text, &out.join("augmented"), progress, stop)?;

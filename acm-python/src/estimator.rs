@@ -1,8 +1,8 @@
 //! A trained network beside Python: sample by sample, or a trial at once.
 
-use std::{fs, path::PathBuf};
+use std::path::PathBuf;
 
-use acm_datasets::Domain;
+use acm_datasets::{Domain, files::regular};
 use acm_eval::{
     error::EvalError,
     stream::{
@@ -118,7 +118,7 @@ fn of_folder(request: &Request, everywhere: bool) -> Result<(Estimator, Option<S
 
 /// Of a file that `acm-eval stream --save` wrote: names as it has them, SI units, and no domain.
 fn of_file(file: &PathBuf) -> PyResult<Estimator> {
-    let bytes = fs::read(file).map_err(|error| of_eval(EvalError::read(file, error)))?;
+    let bytes = regular::read(file).map_err(|error| of_eval(EvalError::read(file, error)))?;
     let unfit = |error: String| DataError::new_err(format!("{}: {error}", file.display()));
     let title = file.display().to_string();
     if let Ok(parts) = AverageParts::from_json(&bytes) {

@@ -132,6 +132,30 @@ fn long_lines_and_deep_tables() {
     }
 }
 
+/// An experiment without a key is not one with all defaults, and a pipe is not waited for.
+#[test]
+fn what_is_no_experiment_is_refused_at_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let refused = |file: &str, parts: &[&str]| {
+        let mut program = Command::new(assert_cmd::cargo::cargo_bin!("acm-train"));
+        let output = program.current_dir(folder.path()).args(["--config", file]).output().unwrap();
+        let message = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{message}");
+        assert!(parts.iter().all(|part| message.contains(part)), "{parts:?} in {message}");
+    };
+    for (text, what) in [("", "is empty"), ("# data = \"my-robot\"\n", "nothing but comments")] {
+        fs::write(folder.path().join("empty.toml"), text).unwrap();
+        refused("empty.toml", &["empty.toml:1:1", what, "experiments/cfc.toml"]);
+    }
+    refused(".", &["this is no file but a folder"]);
+    #[cfg(unix)]
+    {
+        let pipe = folder.path().join("pipe.toml");
+        assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+        refused("pipe.toml", &["pipe.toml: this is no file but a named pipe"]);
+    }
+}
+
 /// A short run of `cargo run -p acm-train --example fuzz_toml -- --count N`.
 #[test]
 fn damaged_files_are_read_or_refused() {

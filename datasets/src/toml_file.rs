@@ -12,6 +12,8 @@
 
 mod controls;
 mod located;
+pub mod overflow;
+mod walk;
 pub mod words;
 
 use std::collections::BTreeMap;
@@ -21,13 +23,14 @@ use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
 use serde::de::DeserializeOwned;
-use toml::Spanned;
-use toml::de::{DeTable, DeValue};
+use toml::de::DeTable;
 
 use crate::error::DataError;
-use crate::toml_file::words::{cut, in_words, key_near, remedy, short, syntax_remedy};
+use crate::files::regular;
+use crate::toml_file::words::{cut, empty, in_words, key_near, remedy, short, syntax_remedy};
 
 pub use located::TomlError;
+use walk::each;
 
 /// A configuration file is written by hand: a larger one is a mistaken path.
 pub const SIZE_LIMIT: u64 = 1 << 20;
@@ -65,14 +68,14 @@ impl TomlSource {
     /// # Errors
     /// A file that cannot be read, is larger than [`SIZE_LIMIT`], or is not UTF-8.
     pub fn read(path: &Path) -> Result<Self, DataError> {
-        let failed = |reason: &std::io::Error| DataError::file_system("read", path, reason);
+        let failed = |reason: &std::io::Error| match reason.kind() {
+            std::io::ErrorKind::IsADirectory => {
+                DataError::Usage(format!("{}: {reason}; put a TOML file in its place", path.display()))
+            }
+            _ => DataError::file_system("read", path, reason),
+        };
         let mut bytes = Vec::new();
-        // a pipe would be waited for without end
-        if std::fs::metadata(path).is_ok_and(|found| !found.is_file()) {
-            let message = format!("{}: this is no file; put a TOML file in its place", path.display());
-            return Err(DataError::Usage(message));
-        }
-        let file = std::fs::File::open(path).map_err(|e| failed(&e))?;
+        let file = regular::open(path).map_err(|e| failed(&e))?;
         file.take(SIZE_LIMIT + 1).read_to_end(&mut bytes).map_err(|e| failed(&e))?;
         let source = |text: String| TomlSource { path: path.to_path_buf(), text, spans: OnceLock::new() };
         if bytes.len() as u64 > SIZE_LIMIT {
@@ -80,7 +83,10 @@ impl TomlSource {
             return Err(source(String::new()).at(0..0, message).into());
         }
         match String::from_utf8(bytes) {
-            Ok(text) => Ok(source(text)),
+            Ok(text) => match empty(&text, EXAMPLE) {
+                Some((what, remedy)) => Err(source(text).at(0..0, format!("{what}; {remedy}")).into()),
+                None => Ok(source(text)),
+            },
             Err(e) => {
                 let valid = e.utf8_error().valid_up_to();
                 let text = String::from_utf8_lossy(e.as_bytes()).into_owned();
@@ -100,7 +106,8 @@ impl TomlSource {
             let near = key_near(&self.text, span.start).map_or(String::new(), |key| format!(" (at `{key}`)"));
             self.at(span, format!("{}{near}; {}", in_words(e.message()), syntax_remedy(e.message())))
         })?;
-        if let Some((span, message)) = controls::find(&self.text) {
+        let too_large = overflow::find(&self.text).map(|(span, what, remedy)| (span, format!("{what}; {remedy}")));
+        if let Some((span, message)) = controls::find(&self.text).or(too_large) {
             return Err(self.at(span, message));
         }
         serde_path_to_error::deserialize(parsed).map_err(|e| {
@@ -129,7 +136,10 @@ impl TomlSource {
         let spans = self.spans.get_or_init(|| {
             let mut spans = BTreeMap::new();
             if let Ok(root) = DeTable::parse(&self.text) {
-                below(root.get_ref(), &mut vec![], &mut spans);
+                let _ = each(root.get_ref(), &mut vec![], &mut |key, _, value| {
+                    spans.insert(key.to_vec(), value.span());
+                    None::<()>
+                });
             }
             spans
         });
@@ -172,29 +182,5 @@ impl TomlSource {
             Ok(()) => drawn.lines().skip_while(|l| !l.contains('╭')).map(|l| format!("{}\n", l.trim_end())).collect(),
             Err(_) => String::new(),
         }
-    }
-}
-
-/// Notes where everything in a table stands.
-fn below(table: &DeTable<'_>, path: &mut Vec<String>, spans: &mut BTreeMap<Vec<String>, Range<usize>>) {
-    for (name, value) in table {
-        path.push(name.get_ref().to_string());
-        note(value, path, spans);
-        path.pop();
-    }
-}
-
-fn note(value: &Spanned<DeValue<'_>>, path: &mut Vec<String>, spans: &mut BTreeMap<Vec<String>, Range<usize>>) {
-    spans.insert(path.clone(), value.span());
-    match value.get_ref() {
-        DeValue::Table(table) => below(table, path, spans),
-        DeValue::Array(members) => {
-            for (i, member) in members.iter().enumerate() {
-                path.push(i.to_string());
-                note(member, path, spans);
-                path.pop();
-            }
-        }
-        _ => {}
     }
 }

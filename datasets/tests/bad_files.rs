@@ -102,15 +102,32 @@ fn links_within_the_data_folder_are_followed() {
     command.arg("check").arg(set.file("other")).assert().success();
 }
 
-/// A pipe in the place of the manifest is not waited for.
+/// A pipe in the place of the manifest or of a table is not waited for.
 #[cfg(unix)]
 #[test]
-fn a_pipe_is_no_manifest() {
-    let set = Set::new().expect("a temporary folder");
-    std::fs::remove_file(set.file("data/manifest.toml")).expect("removed");
-    let made = std::process::Command::new("mkfifo").arg(set.file("data/manifest.toml")).status().expect("mkfifo");
-    assert!(made.success());
-    let (code, message) = check(&set);
-    assert_eq!(code, 2, "{message}");
-    assert!(message.contains("manifest.toml") && message.contains("this is no file"), "{message}");
+fn a_pipe_is_no_file() {
+    for (file, expected) in [("manifest.toml", 2), ("run_b.csv", 4)] {
+        let set = Set::new().expect("a temporary folder");
+        let path = set.file(&format!("data/{file}"));
+        std::fs::remove_file(&path).expect("removed");
+        assert!(std::process::Command::new("mkfifo").arg(&path).status().expect("mkfifo").success());
+        let (code, message) = check(&set);
+        assert_eq!(code, expected, "{message}");
+        assert!(message.contains(file) && message.contains("this is no file but a named pipe"), "{message}");
+    }
+}
+
+/// A manifest without a key says so, and names an example.
+#[test]
+fn an_empty_manifest_is_told() {
+    for (text, what) in
+        [("", "is empty"), ("\u{feff}\n  \n", "is empty"), ("# name = 1\n\n# x", "nothing but comments")]
+    {
+        let set = Set::new().expect("a temporary folder");
+        set.write("data/manifest.toml", text).expect("written");
+        let (code, message) = check(&set);
+        assert_eq!(code, 2, "{message}");
+        assert!(message.contains("manifest.toml:1:1: the file") && message.contains(what), "{message}");
+        assert!(message.contains("book/src/manifest.md"), "{message}");
+    }
 }

@@ -23,6 +23,7 @@ use std::{
 
 use acm_datasets::files::atomic::{DRAFT_PREFIX, flush, make_folder, sweep};
 use acm_datasets::files::lock::{self, Lock, Refused};
+use acm_datasets::files::regular;
 use acm_trace::{close::Closed, finding::Confirmation};
 use acm_train::store::hashed;
 
@@ -187,7 +188,7 @@ fn ensure_owned(root: &Path) -> Result<(), EvalError> {
 }
 
 fn is_finding(file: &Path) -> Result<bool, EvalError> {
-    let text = fs::read_to_string(file).map_err(|source| EvalError::read(file, source))?;
+    let text = regular::read_to_string(file).map_err(|source| EvalError::read(file, source))?;
     let value: Option<serde_json::Value> = serde_json::from_str(&text).ok();
     Ok(value.is_some_and(|value| value.get("verdict").is_some() && value.get("effects").is_some()))
 }

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use acm_datasets::files::atomic;
+use acm_datasets::files::{atomic, regular};
 use acm_eval::{error::EvalError, terminal::print};
 use acm_export::{ExportError, File, Origin, c99, onnx, torch};
 use acm_stream::Parts;
@@ -96,6 +96,6 @@ fn estimator(args: &ExportArgs) -> Result<(Parts, String), EvalError> {
 }
 
 fn saved(file: &Path) -> Result<Parts, EvalError> {
-    let bytes = std::fs::read(file).map_err(|error| EvalError::Data(format!("{}: {error}", file.display())))?;
+    let bytes = regular::read(file).map_err(|error| EvalError::Data(format!("{}: {error}", file.display())))?;
     Parts::from_json(&bytes).map_err(|error| EvalError::Data(format!("{}: {error}", file.display())))
 }

@@ -17,7 +17,7 @@ use std::{
     path::{Component, Path, PathBuf},
 };
 
-use acm_datasets::files::atomic::replace;
+use acm_datasets::files::{atomic::replace, regular};
 use serde::{Deserialize, Serialize};
 
 use crate::{error::EvalError, ownership};
@@ -114,7 +114,8 @@ fn former(root: &Path) -> Result<BTreeSet<String>, EvalError> {
         return Err(foreign(root, format!("it holds {name}")));
     }
     let page = root.join(PAGE);
-    if page.exists() && !fs::read(&page).map_err(unread)?.windows(MAKER.len()).any(|part| part == MAKER.as_bytes()) {
+    if page.exists() && !regular::read(&page).map_err(unread)?.windows(MAKER.len()).any(|part| part == MAKER.as_bytes())
+    {
         return Err(foreign(root, format!("its {PAGE} is none of this program")));
     }
     let mut files = BTreeSet::new();
@@ -136,7 +137,7 @@ fn former(root: &Path) -> Result<BTreeSet<String>, EvalError> {
 
 /// Returns the list that a report left, if it is one.
 fn list_of(root: &Path) -> io::Result<Option<List>> {
-    match fs::read(root.join(LIST)) {
+    match regular::read(&root.join(LIST)) {
         Ok(bytes) => Ok(serde_json::from_slice(&bytes).ok().filter(|list: &List| list.made_by == MAKER)),
         Err(error) if error.kind() == ErrorKind::NotFound => Ok(None),
         Err(error) => Err(error),

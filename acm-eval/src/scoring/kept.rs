@@ -13,6 +13,7 @@ use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
+use acm_datasets::files::regular;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -65,7 +66,7 @@ impl Header {
 fn fingerprint() -> Result<String, EvalError> {
     let path = std::env::current_exe().map_err(|error| EvalError::read(Path::new("acm-eval"), error))?;
     let failed = |error| EvalError::read(&path, error);
-    let (mut file, mut hash) = (File::open(&path).map_err(failed)?, DefaultHasher::new());
+    let (mut file, mut hash) = (regular::open(&path).map_err(failed)?, DefaultHasher::new());
     let mut piece = vec![0; 1 << 20];
     loop {
         match file.read(&mut piece).map_err(failed)? {
@@ -135,7 +136,7 @@ impl<R: Serialize + DeserializeOwned + Clone> Kept<R> {
 
 /// Reads a file, which may end within a character; nothing where there is no file.
 fn text(path: &Path) -> Result<String, EvalError> {
-    match std::fs::read(path) {
+    match regular::read(path) {
         Ok(bytes) => Ok(String::from_utf8_lossy(&bytes).into_owned()),
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(String::new()),
         Err(error) => Err(EvalError::read(path, error)),

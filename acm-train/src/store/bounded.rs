@@ -1,22 +1,11 @@
 //! Bounded reads: a file that claims more than a plausible length is refused before memory is allocated.
 
 use std::{
-    fs::{self, File},
     io::{self, Read},
     path::Path,
 };
 
-/// Opens a regular file, which has an end.
-///
-/// # Errors
-/// What the file system says; it is no file but a folder, a pipe or a device.
-pub fn open(path: &Path) -> io::Result<File> {
-    // Opening a pipe would block the reader without end; a device has no end.
-    match fs::metadata(path)?.is_file() {
-        true => File::open(path),
-        false => Err(io::Error::new(io::ErrorKind::InvalidData, "it is no file")),
-    }
-}
+pub use acm_datasets::files::regular::open;
 
 /// Returns the bytes of a file of at most `most` bytes.
 ///
@@ -39,6 +28,8 @@ pub fn read(path: &Path, most: u64) -> io::Result<Vec<u8>> {
 
 #[cfg(test)]
 mod tests {
+    use std::fs::{self, File};
+
     use super::*;
 
     #[test]

@@ -3,12 +3,9 @@
 //! A folder is claimed by a lock that the operating system releases when the process ends, however it ends. It then
 //! belongs to the experiment and the data hash written in it: `--resume` continues that experiment and no other.
 
-use std::{
-    fs,
-    path::{Path, PathBuf},
-};
+use std::path::{Path, PathBuf};
 
-use acm_datasets::files::lock::Lock;
+use acm_datasets::files::{lock::Lock, regular};
 use serde::Serialize;
 use toml::Table;
 
@@ -73,7 +70,7 @@ impl RunFolder {
     }
 
     fn compare(&self, path: &Path, asked: &str) -> Result<(), StoreError> {
-        let held = fs::read_to_string(path).map_err(|source| StoreError::io("read", path, source))?;
+        let held = regular::read_to_string(path).map_err(|source| StoreError::io("read", path, source))?;
         let tables: Option<(Table, Table)> = held.parse().ok().zip(asked.parse().ok());
         match tables.map(|(held, asked)| differences(&held, &asked)) {
             Some(list) if list.is_empty() => Ok(()),
@@ -117,6 +114,8 @@ impl RunFolder {
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
+
     use super::*;
 
     #[test]

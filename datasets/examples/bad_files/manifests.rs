@@ -185,7 +185,7 @@ fn sizes() -> Vec<Case> {
             &["column `xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx…` is missing"],
         )
         .of_data_in("run_a.csv"),
-        text("no text", String::new(), ":1:1", &["`files` is missing"]),
+        text("no text", String::new(), ":1:1", &["the file is empty", "write at least one key"]),
         text("a zero byte", "name = \u{0}".into(), ":1:", &["mend the TOML"]),
     ]
 }
@@ -242,10 +242,14 @@ fn links() -> Vec<Case> {
             let text = MANIFEST.replace("[\"run_*.csv\"", "[\"more/run_*.csv\", \"run_*.csv\"");
             set.write("data/manifest.toml", text)
         }));
-        cases.push(case("a link that leads nowhere", Said::of(3, "manifest.toml", &["names trial `b`"]), |set| {
-            std::fs::remove_file(set.file("data/run_b.csv"))?;
-            symlink("nowhere.csv", set.file("data/run_b.csv"))
-        }));
+        cases.push(case(
+            "a link that leads nowhere",
+            Said::of(4, "run_b.csv", &["cannot read", "check the path"]),
+            |set| {
+                std::fs::remove_file(set.file("data/run_b.csv"))?;
+                symlink("nowhere.csv", set.file("data/run_b.csv"))
+            },
+        ));
         cases.push(case(
             "a device in the place of a file",
             Said::of(3, "manifest.toml", &["names trial `b`"]),

@@ -3,6 +3,7 @@
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
+use acm_datasets::files::regular;
 use acm_datasets::generate::{StatisticsError, samples_in_domain, statistics, store};
 use acm_datasets::{Campaign, DataError, Trial};
 use acm_sim::twin::Floors;
@@ -40,7 +41,7 @@ fn floors(folder: &Path) -> Result<Option<Floors>, DataError> {
     if !path.exists() {
         return Ok(None);
     }
-    let text = std::fs::read_to_string(&path).map_err(|e| DataError::file_system("read", &path, &e))?;
+    let text = regular::read_to_string(&path).map_err(|e| DataError::file_system("read", &path, &e))?;
     let damaged = |e: serde_json::Error| DataError::Damaged { path: path.clone(), reason: e.to_string() };
     serde_json::from_str(&text).map(Some).map_err(damaged)
 }

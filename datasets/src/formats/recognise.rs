@@ -1,12 +1,12 @@
 //! Format of a file: by its extension, and by its first bytes where several formats share one.
 
-use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
 use crate::error::DataError;
+use crate::files::regular;
 
 /// Bytes that are looked at.
 const HEAD: u64 = 1 << 16;
@@ -62,7 +62,7 @@ impl Format {
 pub fn recognise(path: &Path) -> Result<Option<Format>, DataError> {
     let failed = |e: &std::io::Error| DataError::file_system("read", path, e);
     let mut head = Vec::new();
-    File::open(path).and_then(|file| file.take(HEAD).read_to_end(&mut head)).map_err(|e| failed(&e))?;
+    regular::open(path).and_then(|file| file.take(HEAD).read_to_end(&mut head)).map_err(|e| failed(&e))?;
     let name = path.file_name().unwrap_or_default().to_string_lossy().to_lowercase();
     Ok(of(&name, &head))
 }

@@ -23,6 +23,7 @@ use super::store::{Described, columns, described};
 use crate::error::DataError;
 use crate::files::atomic::{make_folder, sweep, write_bytes};
 use crate::files::lock::{self, Lock, Refused};
+use crate::files::regular;
 use crate::files::table::write_parquet_groups;
 
 /// Most repetitions: the manifest names every trial, and is to stay a file that can be read.
@@ -52,7 +53,7 @@ pub fn write_repeated(
     let _lock = claim(folder)?;
     let manifest = manifest(settings, seed, scale);
     let path = folder.join("manifest.toml");
-    let interrupted = std::fs::read(&path).is_ok_and(|found| found == manifest.as_bytes());
+    let interrupted = regular::read(&path).is_ok_and(|found| found == manifest.as_bytes());
     write_bytes(&path, manifest.as_bytes())?;
     let done = AtomicUsize::new(0);
     let count = |trials: usize| progress(done.fetch_add(trials, Ordering::Relaxed) + trials, TRIALS * scale);

@@ -141,7 +141,7 @@ pub(crate) fn matches(folder: &Path, pattern: &str) -> Vec<PathBuf> {
     let Some(root) = folder.to_str() else { return Vec::new() };
     let full = if root.is_empty() { pattern.to_string() } else { format!("{}/{pattern}", glob::Pattern::escape(root)) };
     let Ok(paths) = glob::glob(&full) else { return Vec::new() };
-    let files = paths.filter_map(Result::ok).filter(|p| p.is_file());
+    let files = paths.filter_map(Result::ok).filter(|p| !p.is_dir());
     files.filter_map(|p| p.strip_prefix(folder).ok().map(Path::to_path_buf)).collect()
 }
 

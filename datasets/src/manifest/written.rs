@@ -1,12 +1,11 @@
 //! Manifests of data sets that the program writes: it replaces its own, and never somebody's recordings.
 
-use std::fs;
 use std::io::ErrorKind;
 use std::path::Path;
 
 use super::Manifest;
 use crate::error::DataError;
-use crate::files::atomic;
+use crate::files::{atomic, regular};
 
 /// Refuses a folder whose manifest does not begin with `head`.
 ///
@@ -14,7 +13,7 @@ use crate::files::atomic;
 /// Such a folder, or one that cannot be read.
 pub fn claim(folder: &Path, head: &str) -> Result<(), DataError> {
     let manifest = folder.join("manifest.toml");
-    match fs::read(&manifest) {
+    match regular::read(&manifest) {
         Ok(text) if text.starts_with(head.as_bytes()) => Ok(()),
         Ok(_) => Err(DataError::Usage(format!(
             "{} holds a data set of its own, which would be lost; name another folder with --out DIR",

@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 
 use super::{Imported, Source};
 use crate::error::{DataError, Problems};
-use crate::files::atomic;
+use crate::files::{atomic, regular};
 use crate::ingest::recording::{self, Recording, Wanted};
 
 /// The line of the list.
@@ -44,7 +44,7 @@ const DISKS: [&str; 9] = ["x1", "y1", "z1", "x2", "y2", "z2", "x3", "y3", "z3"];
 fn import(clone: &Path, out: &Path) -> Result<Imported, DataError> {
     let folder = folder(clone)?;
     let manifest = out.join("manifest.toml");
-    if std::fs::read(&manifest).is_ok_and(|found| found != MANIFEST.as_bytes()) {
+    if regular::read(&manifest).is_ok_and(|found| found != MANIFEST.as_bytes()) {
         return Err(DataError::Usage(format!(
             "{} is another one than would be written; name another folder with --out DIR, or remove it",
             manifest.display()

@@ -3,29 +3,16 @@
 
 use std::ops::Range;
 
-use toml::Spanned;
-use toml::de::{DeTable, DeValue};
+use toml::de::DeTable;
+
+use super::walk::each;
 
 /// The first key or text of a TOML file that has one, and what to do.
 pub(super) fn find(text: &str) -> Option<(Range<usize>, String)> {
-    in_table(DeTable::parse(text).ok()?.get_ref())
-}
-
-fn in_table(table: &DeTable<'_>) -> Option<(Range<usize>, String)> {
-    let of = |(key, value): (&Spanned<_>, &Spanned<DeValue<'_>>)| {
-        let key: &Spanned<std::borrow::Cow<'_, str>> = key;
-        in_text(key.get_ref(), key.span()).or_else(|| in_value(value))
-    };
-    table.iter().find_map(of)
-}
-
-fn in_value(value: &Spanned<DeValue<'_>>) -> Option<(Range<usize>, String)> {
-    match value.get_ref() {
-        DeValue::String(text) => in_text(text, value.span()),
-        DeValue::Array(members) => members.iter().find_map(in_value),
-        DeValue::Table(table) => in_table(table),
-        _ => None,
-    }
+    each(DeTable::parse(text).ok()?.get_ref(), &mut vec![], &mut |key, at, value| {
+        let text = value.get_ref().as_str().and_then(|text| in_text(text, value.span()));
+        key.last().and_then(|name| in_text(name, at)).or(text)
+    })
 }
 
 fn in_text(text: &str, span: Range<usize>) -> Option<(Range<usize>, String)> {

@@ -25,18 +25,27 @@ pub fn cut(text: &str, most: usize) -> String {
 /// Serde names Rust's types; a reader of TOML knows others.
 pub fn in_words(message: &str) -> String {
     let plain = cut(message.lines().next().unwrap_or_default(), 600);
+    let plain = ["expected struct ", "expected internally tagged enum "].iter().fold(plain, |text, start| {
+        let parts =
+            text.split_once(start).map(|(before, after)| (before, after.trim_start_matches(char::is_alphanumeric)));
+        parts.map_or(text.clone(), |(before, after)| format!("{before}expected a table{after}"))
+    });
     [
         ("expected usize", "expected a whole number, 0 or more"),
-        ("expected u64", "expected a whole number, 0 or more"),
+        ("expected u64", "expected a whole number from 0 to 9223372036854775807"),
         ("expected f64", "expected a number"),
         ("expected a sequence", "expected a list"),
         ("invalid type: sequence", "invalid type: a list"),
         ("invalid type: map", "invalid type: a table"),
         ("expected a map", "expected a table"),
-        ("expected struct ", "expected the table "),
         ("expected path string", "expected a path in quotes"),
         ("expected a string", "expected a text in quotes"),
+        ("invalid type: unit variant, expected string only", "invalid type: expected a text in quotes"),
+        ("expected variant identifier", "expected a text in quotes"),
         ("expected a boolean", "expected true or false"),
+        ("invalid type: string", "invalid type: the text"),
+        ("invalid type: floating point", "invalid type: the number"),
+        ("invalid type: boolean", "invalid type: the truth value"),
         ("string or table", "a text in quotes, or a table"),
         ("duplicate key", "the key is there twice"),
     ]
@@ -55,9 +64,20 @@ pub fn remedy(message: &str, example: &str) -> String {
         format!("{meant}use one of the names above")
     } else if message.starts_with("missing field") {
         format!("write the key `{}`; {example} shows such a file", cut(written, 120))
+    } else if message.contains("floating point") && (message.contains("usize") || message.contains("u64")) {
+        "write it without a decimal point and without an exponent: 1000 for 1e3".into()
     } else {
         "write a value of the expected type, or leave the key out for its default".into()
     }
+}
+
+/// Fault of a text without any key, and its remedy; `example` names an example of such a file.
+pub fn empty(text: &str, example: &str) -> Option<(&'static str, String)> {
+    let mut lines =
+        text.trim_start_matches('\u{feff}').lines().map(str::trim).filter(|line| !line.is_empty()).peekable();
+    let what = if lines.peek().is_none() { "the file is empty" } else { "the file has nothing but comments" };
+    let help = format!("write at least one key, as {example} shows, or name another file");
+    lines.all(|line| line.starts_with('#')).then_some((what, help))
 }
 
 /// Remedy for text that is not TOML.
@@ -105,6 +125,25 @@ mod tests {
         assert_eq!(near("[training]").as_deref(), Some("training"));
         assert_eq!(key_near("", 0), None);
         assert_eq!(key_near("ä", 1), None);
+    }
+
+    /// Expected texts written by hand.
+    #[test]
+    fn types_are_those_of_a_file() {
+        for (serde, words) in [
+            ("invalid type: integer `3`, expected struct Search", "invalid type: integer `3`, expected a table"),
+            (
+                "invalid type: string \"x\", expected internally tagged enum Schedule",
+                "invalid type: the text \"x\", expected a table",
+            ),
+            ("invalid type: unit variant, expected string only", "invalid type: expected a text in quotes"),
+            (
+                "invalid type: integer `3`, expected variant identifier",
+                "invalid type: integer `3`, expected a text in quotes",
+            ),
+        ] {
+            assert_eq!(in_words(serde), words);
+        }
     }
 
     #[test]

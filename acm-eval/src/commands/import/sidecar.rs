@@ -3,7 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
-use acm_datasets::Standardizer;
+use acm_datasets::{Standardizer, files::regular};
 use acm_eval::error::EvalError;
 use acm_models::NetworkConfig;
 use acm_train::{config::Experiment, learn::Scalers};
@@ -47,7 +47,7 @@ impl Sidecar {
             None if beside.is_file() => beside,
             None => return Ok(Self::default()),
         };
-        let text = std::fs::read(&file).map_err(|error| EvalError::read(&file, error))?;
+        let text = regular::read(&file).map_err(|error| EvalError::read(&file, error))?;
         let about: About =
             serde_json::from_slice(&text).map_err(|error| EvalError::Data(format!("{}: {error}", file.display())))?;
         if about.inputs.is_some() != about.targets.is_some() {

@@ -7,6 +7,7 @@
 
 use std::path::Path;
 
+use acm_datasets::files::regular;
 use acm_eval::error::EvalError;
 use acm_train::learn::import::Tensor;
 use safetensors::{Dtype, SafeTensors, tensor::TensorView};
@@ -31,7 +32,7 @@ pub fn read(file: &Path) -> Result<Vec<Tensor>, EvalError> {
 
 fn safe(file: &Path) -> Result<Vec<Tensor>, EvalError> {
     let refused = |what: String| EvalError::Data(format!("{}: {what}", file.display()));
-    let bytes = std::fs::read(file).map_err(|error| EvalError::read(file, error))?;
+    let bytes = regular::read(file).map_err(|error| EvalError::read(file, error))?;
     let tensors = SafeTensors::deserialize(&bytes).map_err(|error| {
         refused(format!("{error}; write it with safetensors.torch.save_file(module.state_dict(), FILE)"))
     })?;

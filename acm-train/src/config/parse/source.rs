@@ -3,12 +3,13 @@
 //! Decoding works on the merged tree; a fault is then traced back to the text that its key came from.
 
 use std::{
-    fs,
     io::Read,
     path::{Path, PathBuf},
     sync::Arc,
 };
 
+use acm_datasets::files::regular;
+use acm_datasets::toml_file::{overflow, words::empty};
 use toml::{Table, Value};
 
 use super::complaint::Complaint;
@@ -18,6 +19,9 @@ use crate::config::error::ConfigError;
 
 /// A file beyond this is not an experiment.
 const LARGEST_FILE: u64 = 64 * 1024;
+
+/// Files that show what such a file can say.
+const EXAMPLES: &str = "experiments/cfc.toml (of acm-train) and experiments/close-the-loop.toml (of acm-eval)";
 
 /// Keys that have options of their own on the command line.
 const OPTIONS: [&str; 2] = ["out", "config"];
@@ -62,7 +66,11 @@ impl Source {
     /// # Errors
     /// The file cannot be read, is too large or not TOML; an edit is not `key=value`.
     pub fn read(file: &Path, edits: &[String]) -> Result<Self, ConfigError> {
-        Self::edited(file, read_capped(file)?, edits)
+        let text = read_capped(file)?;
+        match empty(&text.text, EXAMPLES) {
+            Some((what, help)) => Err(text.refuse(0..0, what.into(), help)),
+            None => Self::edited(file, text, edits),
+        }
     }
 
     /// Returns the defaults with `edits` applied, without a file.
@@ -108,6 +116,9 @@ impl Source {
         if format!("{key}=0").parse::<Table>().is_err() {
             let help = "write table.key as a file has it: --set training.epochs=3";
             return refuse(format!("`{key}` is no dotted key"), help);
+        }
+        if let Some((span, what, help)) = overflow::find(edit) {
+            return Err(text.refuse(span, what, help.into()));
         }
         let Ok(tree) = text.parse() else {
             let help = "write 3, 0.5, true, [1, 2], or a text: --set 'question=Why?'";
@@ -199,12 +210,12 @@ impl Source {
 
 fn read_capped(file: &Path) -> Result<Text, ConfigError> {
     let mut bytes = Vec::new();
-    fs::File::open(file).and_then(|opened| opened.take(LARGEST_FILE + 1).read_to_end(&mut bytes)).map_err(
-        |source| ConfigError::Unreadable {
+    regular::open(file).and_then(|opened| opened.take(LARGEST_FILE + 1).read_to_end(&mut bytes)).map_err(|source| {
+        ConfigError::Unreadable {
             what: format!("cannot read the experiment file {}: {source}", file.display()),
             help: "give the path of a TOML file: --config experiments/cfc.toml".into(),
-        },
-    )?;
+        }
+    })?;
     if bytes.len() as u64 > LARGEST_FILE {
         return Err(ConfigError::Unreadable {
             what: format!("{} is larger than {LARGEST_FILE} bytes, so it is no experiment file", file.display()),

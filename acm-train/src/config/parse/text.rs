@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use acm_datasets::toml_file::overflow;
 use acm_datasets::toml_file::words::{in_words, key_near, short, syntax_remedy};
 use miette::NamedSource;
 use toml::{
@@ -29,6 +30,9 @@ pub(super) struct Text {
 impl Text {
     /// Parses the text to a tree of values.
     pub fn parse(&self) -> Result<Table, ConfigError> {
+        if let Some((span, what, help)) = overflow::find(&self.text) {
+            return Err(self.refuse(span, what, help.into()));
+        }
         self.text.parse::<Table>().map_err(|error| {
             let span = error.span().unwrap_or(0..0);
             let near = key_near(&self.text, span.start).map_or(String::new(), |key| format!(" (at `{key}`)"));

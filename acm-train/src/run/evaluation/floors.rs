@@ -1,6 +1,8 @@
 //! `floors.json` beside the data: error floors that no estimator can beat, known for simulated data.
 
-use std::{fs, io, path::Path};
+use std::{io, path::Path};
+
+use acm_datasets::files::regular;
 
 use crate::run::error::RunError;
 use crate::run::record::Floors;
@@ -12,7 +14,7 @@ use crate::store::StoreError;
 /// The file is there and cannot be read, or is not about floors.
 pub fn read(folder: &Path) -> Result<Option<Floors>, RunError> {
     let path = folder.join("floors.json");
-    let text = match fs::read_to_string(&path) {
+    let text = match regular::read_to_string(&path) {
         Ok(text) => text,
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
         Err(source) => return Err(StoreError::io("read", path, source).into()),

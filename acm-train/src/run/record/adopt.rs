@@ -1,7 +1,6 @@
 //! Identity of a run folder, and its finished runs.
 
-use std::fs;
-
+use acm_datasets::files::regular;
 use serde::Serialize;
 use toml::Table;
 
@@ -60,7 +59,7 @@ impl RunFolder {
     fn other(&self, record: &RunRecord) -> Result<Option<String>, StoreError> {
         let path = self.path("experiment.toml");
         let held = match path.exists() {
-            true => fs::read_to_string(&path).map_err(|source| StoreError::io("read", path, source))?,
+            true => regular::read_to_string(&path).map_err(|source| StoreError::io("read", path, source))?,
             false => return Ok(None),
         };
         let tables: Option<(Table, Table)> = held.parse().ok().zip(Table::try_from(&record.experiment).ok());

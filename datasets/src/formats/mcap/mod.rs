@@ -15,7 +15,6 @@ mod topic;
 mod zstd;
 
 use std::collections::BTreeMap;
-use std::fs::File;
 use std::io::BufReader;
 use std::path::Path;
 
@@ -26,6 +25,7 @@ use ::mcap::sans_io::LinearReaderOptions;
 use self::topic::Topic;
 use super::{Format, Group, Keep, Take, check_size, no_such};
 use crate::error::{DataError, short};
+use crate::files::regular;
 
 /// A longer record is none of a recording of numbers. A record is held up to three times: compressed, decompressed, and as a message.
 const RECORD_LIMIT: usize = 1 << 26;
@@ -40,7 +40,7 @@ pub(super) fn read(path: &Path, keep: Keep) -> Result<Take, DataError> {
 }
 
 fn records(path: &Path, keep: Keep) -> Result<Take, DataError> {
-    let file = File::open(path).map_err(|e| DataError::file_system("read", path, &e))?;
+    let file = regular::open(path).map_err(|e| DataError::file_system("read", path, &e))?;
     let options = LinearReaderOptions::default().with_record_length_limit(RECORD_LIMIT).with_validate_chunk_crcs(true);
     let (mut topics, mut by_channel): (Vec<Topic>, BTreeMap<u16, usize>) = (Vec::new(), BTreeMap::new());
     let (mut take, mut values, mut messages) = (Take::new(Format::Mcap), 0, 0usize);

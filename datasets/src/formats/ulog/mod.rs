@@ -14,7 +14,6 @@ mod records;
 mod topics;
 
 use std::cell::RefCell;
-use std::fs::File;
 use std::path::Path;
 
 use px4_ulog::stream_parser::LogParser;
@@ -24,13 +23,14 @@ use self::records::{Records, Seen};
 use self::topics::Topics;
 use super::{Format, Keep, Take, no_such};
 use crate::error::DataError;
+use crate::files::regular;
 
 /// Largest number of damaged stretches that are listed; of more, only the number.
 const TOLD: usize = 5;
 
 pub(super) fn read(path: &Path, keep: Keep) -> Result<Take, DataError> {
     let failed = |e: &std::io::Error| DataError::file_system("read", path, e);
-    let file = File::open(path).map_err(|e| failed(&e))?;
+    let file = regular::open(path).map_err(|e| failed(&e))?;
     let topics = RefCell::new(Topics::new(path, keep));
     let dropouts = RefCell::new((0usize, 0.0));
     let mut on_data = |message: &DataMessage| topics.borrow_mut().take(message);

@@ -7,6 +7,7 @@ use std::path::Path;
 use sha2::{Digest, Sha256};
 
 use crate::error::DataError;
+use crate::files::regular;
 use crate::ingest::locate::FILE_LIMIT;
 
 /// Larger Parquet files stay on the disk while they are read.
@@ -32,14 +33,14 @@ impl Content {
     /// All of a file.
     pub fn held(path: &Path) -> Result<Self, DataError> {
         checked_size(path)?;
-        std::fs::read(path).map(Self::Held).map_err(|e| DataError::file_system("read", path, &e))
+        regular::read(path).map(Self::Held).map_err(|e| DataError::file_system("read", path, &e))
     }
 
     /// A file that may stay on the disk.
     pub fn of(path: &Path) -> Result<Self, DataError> {
         match checked_size(path)? {
             size if size > HELD => {
-                let opened = File::open(path).map(|file| Self::OnDisk(file, size));
+                let opened = regular::open(path).map(|file| Self::OnDisk(file, size));
                 opened.map_err(|e| DataError::file_system("read", path, &e))
             }
             _ => Self::held(path),

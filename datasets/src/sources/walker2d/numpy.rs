@@ -11,6 +11,7 @@
 use std::path::Path;
 
 use crate::error::DataError;
+use crate::files::regular;
 
 /// Numbers in the state of the generator.
 const N: usize = 624;
@@ -82,7 +83,7 @@ pub struct State {
 
 /// An array of `columns` columns of little-endian floats in C order, in single precision.
 pub fn read(path: &Path, columns: usize) -> Result<State, DataError> {
-    let bytes = std::fs::read(path).map_err(|e| DataError::file_system("read", path, &e))?;
+    let bytes = regular::read(path).map_err(|e| DataError::file_system("read", path, &e))?;
     let damaged = |reason: &str| DataError::Damaged { path: path.to_path_buf(), reason: reason.into() };
     let (header, numbers) = parts(&bytes).ok_or_else(|| damaged("it is no array of numpy"))?;
     let wide = header.contains("'<f8'");

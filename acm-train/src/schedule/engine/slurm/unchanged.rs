@@ -1,11 +1,9 @@
 //! Check that a collector finds the files as they were when it was submitted. Between Friday and Monday somebody may
 //! have edited them for another question, whose answer does not belong into this folder.
 
-use std::{
-    fs,
-    path::{Path, PathBuf},
-};
+use std::path::{Path, PathBuf};
 
+use acm_datasets::files::regular;
 use sha2::{Digest, Sha256};
 use toml::Value;
 
@@ -18,7 +16,7 @@ use crate::{config::Source, schedule::error::ScheduleError, store::StoreError};
 pub fn fingerprint(source: &Source) -> Result<String, ScheduleError> {
     let mut hash = Sha256::new();
     for file in std::iter::once(source.path().to_path_buf()).chain(bases(source)) {
-        let bytes = fs::read(&file).map_err(|error| StoreError::io("read", &file, error))?;
+        let bytes = regular::read(&file).map_err(|error| StoreError::io("read", &file, error))?;
         hash.update(Sha256::digest(&bytes));
     }
     Ok(acm_hashed::hexadecimal(&hash.finalize()))
