@@ -2,6 +2,8 @@
 
 use std::{path::Path, slice};
 
+use acm_datasets::text::hint::command;
+
 use super::engine::answer::{Answer, nothing_to_submit};
 use super::engine::{self, queue};
 use super::error::ScheduleError;
@@ -66,13 +68,11 @@ pub fn run(experiment: Experiment, source: &Source, request: &Request) -> Result
 /// # Errors
 /// Their intervals cannot be read.
 pub fn report(records: &[RunRecord], out: &Path) -> Result<String, ScheduleError> {
-    let root = out.display();
     let records: Vec<&RunRecord> = records.iter().collect();
     let intervals = intervals::read(out)?.map(|intervals| intervals.text(&records));
     let verdict = verdict::of(&records).map(|verdict| verdict.sentence(&records));
-    let written = format!(
-        "records, predictions, training.log: {root}\nfigures and a page: cargo run -p acm-eval -- report {root}"
-    );
+    let page = command("acm-eval", "report", out, "");
+    let written = format!("records, predictions, training.log: {}\nfigures and a page: {page}", out.display());
     let parts = [Some(summary::text(&records)), intervals, verdict, Some(written)];
     Ok(parts.into_iter().flatten().collect::<Vec<_>>().join("\n\n"))
 }

@@ -1,7 +1,6 @@
 //! `acm-data check`: everything that is wrong, and what to do about it.
 
-use std::fmt::Write;
-
+use acm_datasets::text::hint::argument;
 use acm_datasets::{DataError, describe};
 
 use crate::Set;
@@ -9,6 +8,7 @@ use crate::Set;
 pub fn run(set: &Set, window: usize, text: &mut String) -> Result<(), DataError> {
     let data = super::open(set, Some(window))?;
     text.push_str(&describe::checked(&data));
-    let _ = writeln!(text, "next: cargo run -p acm-eval -- close-loop {}", set.folder.display());
+    let data = set.data.as_ref().map_or(String::new(), |data| format!(" --data {}", argument(data.display())));
+    super::next(text, "acm-eval", "close-loop", &set.folder, &data);
     Ok(())
 }

@@ -3,6 +3,7 @@
 use std::fmt::Write;
 use std::path::Path;
 
+use acm_datasets::files::regular;
 use acm_datasets::generate::{self, undeclared};
 use acm_datasets::{Campaign, DataError, Trial};
 use acm_sim::small_rigs::{Kind as Rig, oracle, simulate};
@@ -32,7 +33,7 @@ pub fn run(out: &Path, seed: u64, floors: bool, text: &mut String) -> Result<(),
     let samples: usize = read.trials.iter().map(Trial::samples).sum();
     let (folder, trials) = (out.display(), read.trials.len());
     let _ = writeln!(text, "{folder}: {trials} synthetic trials, {samples} samples, seed {seed}, sha256 {}", read.hash);
-    let _ = writeln!(text, "next: acm-data statistics {folder}");
+    super::next(text, "acm-data", "statistics", out, "");
     Ok(())
 }
 
@@ -44,7 +45,7 @@ pub fn repeated(out: &Path, seed: u64, scale: usize, text: &mut String) -> Resul
     progress.end();
     let (folder, trials) = (out.display(), scale * twin::schedule::TRIALS);
     let _ = writeln!(text, "{folder}: {trials} synthetic trials, {scale} times the campaign, seed {seed}");
-    let _ = writeln!(text, "next: acm-data check {folder}");
+    super::next(text, "acm-data", "check", out, "");
     Ok(())
 }
 
@@ -78,14 +79,14 @@ fn told(out: &Path, seed: u64, how: &str, text: &mut String) -> Result<(), DataE
     let count = format!("{trials} synthetic trials, {samples} samples");
     let _ = writeln!(text, "{folder}: {count}, {how}seed {seed}, sha256 {}", read.hash);
     let _ = writeln!(text, "under seal: {folder}/{}", undeclared::store::TRUTH);
-    let _ = writeln!(text, "next: acm-eval close-loop {folder}");
+    super::next(text, "acm-eval", "close-loop", out, "");
     Ok(())
 }
 
 /// Makes the folder of a new set, before the work and not after it. A set that was not made here is left alone.
 fn make_place(out: &Path) -> Result<(), DataError> {
     let manifest = out.join("manifest.toml");
-    match std::fs::read(&manifest) {
+    match regular::read(&manifest) {
         Ok(text) if !text.starts_with(MARK.as_bytes()) => Err(DataError::Usage(format!(
             "{} is of a data set that was not generated; name another folder with --out DIR",
             manifest.display()

@@ -13,6 +13,6 @@ pub fn run(source: &str, clone: &Path, out: &Path, text: &mut String) -> Result<
     for (file, rows) in (format.import)(clone, out)? {
         let _ = writeln!(text, "{}: {rows} rows", out.join(file).display());
     }
-    let _ = writeln!(text, "next: acm-data check {}", out.display());
+    super::next(text, "acm-data", "check", out, "");
     Ok(())
 }

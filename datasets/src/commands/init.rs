@@ -4,17 +4,19 @@ use std::fmt::Write;
 use std::path::Path;
 
 use acm_datasets::files::atomic;
+use acm_datasets::text::hint::command;
 use acm_datasets::{DataError, init};
 
 pub fn run(folder: &Path, text: &mut String) -> Result<(), DataError> {
     let path = folder.join("manifest.toml");
     if path.exists() {
-        let message = format!("{}: there is a manifest already; move it away, or run acm-data check", path.display());
+        let check = command("acm-data", "check", folder, "");
+        let message = format!("{}: there is a manifest already; move it away, or run {check}", path.display());
         return Err(DataError::Usage(message));
     }
     let draft = init::manifest(folder)?;
     atomic::write_bytes(&path, draft.as_bytes())?;
     let _ = writeln!(text, "{draft}\nwritten to {}: answer the questions in it", path.display());
-    let _ = writeln!(text, "next: acm-data check {}", folder.display());
+    super::next(text, "acm-data", "check", folder, "");
     Ok(())
 }

@@ -13,6 +13,6 @@ pub fn run(set: &Set, out: &Path, text: &mut String) -> Result<(), DataError> {
     for (file, rows) in join::write(&data, out)? {
         let _ = writeln!(text, "{}: {rows} rows", out.join(file).display());
     }
-    let _ = writeln!(text, "next: acm-data check {}", out.display());
+    super::next(text, "acm-data", "check", out, "");
     Ok(())
 }

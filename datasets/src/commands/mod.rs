@@ -10,13 +10,21 @@ pub mod predict;
 mod progress;
 pub mod statistics;
 
+use std::fmt::Write;
+use std::path::Path;
 use std::time::Duration;
 
 use acm_datasets::DataError;
 use acm_datasets::recordings::{Options, Recordings};
+use acm_datasets::text::hint::command;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::Set;
+
+/// Writes the command that usually follows.
+fn next(text: &mut String, program: &str, verb: &str, folder: &Path, rest: &str) {
+    let _ = writeln!(text, "next: {}", command(program, verb, folder, rest));
+}
 
 /// Opens a data set and shows how many samples were read; with `window`, shorter trials are problems.
 fn open(set: &Set, window: Option<usize>) -> Result<Recordings, DataError> {

@@ -22,6 +22,6 @@ pub fn run(set: &Set, out: &Path, program: &[OsString], text: &mut String) -> Re
     progress.end();
     let _ = writeln!(text, "{}: {} rows", out.join(TABLE).display(), samples?);
     let chosen = if data.manifest.arm.is_some() { " --set nominal.model=predicted" } else { "" };
-    let _ = writeln!(text, "next: acm-eval close-loop {}{chosen}", out.display());
+    super::next(text, "acm-eval", "close-loop", out, chosen);
     Ok(())
 }

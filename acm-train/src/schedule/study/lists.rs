@@ -1,5 +1,7 @@
 //! Running a list of experiments: every run of every member, then the table.
 
+use acm_datasets::text::hint::command;
+
 use super::{
     batch::Batches,
     eliminate::{self, Base, settled},
@@ -51,7 +53,8 @@ pub fn conduct(kind: Kind, source: &Source, request: &Request) -> Result<String,
         Kind::Inputs => format!("{}\n\n{}", record.question, steps::text(&record, &runs)),
         _ => table::text(&record, &runs),
     };
-    Ok(format!("{text}\n\nrecords and predictions: {root}\na page: cargo run -p acm-eval -- report {root}"))
+    let page = command("acm-eval", "report", request.out, "");
+    Ok(format!("{text}\n\nrecords and predictions: {root}\na page: {page}"))
 }
 
 struct Study<'a> {

@@ -3,7 +3,10 @@
 use std::path::Path;
 
 use acm_core::display::{Display, plain, signed, with_spread};
-use acm_datasets::text::terminal::ruled;
+use acm_datasets::text::{
+    hint::{argument, command},
+    terminal::ruled,
+};
 
 use super::{
     candidate::{self, Candidate},
@@ -23,9 +26,9 @@ pub fn of(record: &BestRecord, intervals: Option<&Intervals>, out: &Path) -> Str
     let synthetic = if record.data.synthetic { " — synthetic data" } else { "" };
     let notes: String = record.notes.iter().map(|note| format!("\n{note}")).collect();
     let root = out.display();
+    let page = command("acm-eval", "report", out, "");
     format!(
-        "{}\n{}{synthetic}\n\n{}\n\n{}{notes}\n\n{}{intervals}\n\nrecords and predictions: {root}\na page: cargo run -p acm-eval -- \
-         report {root}\n{}",
+        "{}\n{}{synthetic}\n\n{}\n\n{}{notes}\n\n{}{intervals}\n\nrecords and predictions: {root}\na page: {page}\n{}",
         record.question,
         record.data.title,
         table(record),
@@ -37,9 +40,12 @@ pub fn of(record: &BestRecord, intervals: Option<&Intervals>, out: &Path) -> Str
 
 /// Writes how to use it on a robot, or why it cannot be used there.
 fn beside_a_robot(record: &BestRecord, out: &Path) -> String {
-    let root = out.display();
+    let stream = || {
+        let saved = argument(out.join("robot.json").display());
+        command("acm-eval", "stream", out, &format!(" --save {saved}"))
+    };
     match (record.chosen().streams, record.winner.trained) {
-        (true, true) => format!("beside a robot: cargo run -p acm-eval -- stream {root} --save {root}/robot.json"),
+        (true, true) => format!("beside a robot: {}", stream()),
         (true, false) => "beside a robot: once it is trained to the end, with protocol.final = true".into(),
         (false, _) => {
             "beside a robot: an outside baseline has no form there; with robot = true in [best], what is chosen has one"

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use acm_core::display::{DIGITS, plain, signed, significant, with_spread};
-use acm_datasets::text::terminal::ruled;
+use acm_datasets::text::{hint::command, terminal::ruled};
 
 use super::record::{BestOfSequences, Tested};
 use crate::run::evaluation::summary::count;
@@ -15,8 +15,9 @@ use crate::schedule::study::best::text::reason;
 pub fn of(record: &BestOfSequences, out: &Path) -> String {
     let synthetic = if record.sequences.synthetic { " — synthetic data" } else { "" };
     let root = out.display();
+    let page = command("acm-eval", "report", out, "");
     format!(
-        "{}\n{}{synthetic}\n\n{}\n\n{}\n\n{}\n\nrecords and predictions: {root}\na page: cargo run -p acm-eval -- report {root}",
+        "{}\n{}{synthetic}\n\n{}\n\n{}\n\n{}\n\nrecords and predictions: {root}\na page: {page}",
         record.question,
         record.sequences.title,
         candidates(record),
