@@ -102,7 +102,7 @@ fn warned(data: &Recordings, text: &mut String) {
 fn head(data: &Recordings, text: &mut String) {
     let manifest = &data.manifest;
     let synthetic = if manifest.synthetic { " — SYNTHETIC, made by a simulation" } else { "" };
-    let _ = writeln!(text, "{}: {}{synthetic}", manifest.name, manifest.title);
+    let _ = writeln!(text, "{}{synthetic}", manifest.heading());
     let _ = writeln!(text, "licence {} · source {}", or_dash(&manifest.licence), or_dash(manifest.provenance()));
     let _ = writeln!(text, "files in {} · sha256 {}", data.folder.display(), &data.hash[..12]);
     if let Some(arm) = &manifest.arm {

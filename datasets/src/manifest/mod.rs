@@ -29,7 +29,7 @@ use crate::units::{Dimension, Unit};
 pub struct Manifest {
     /// Short name; the folder's name where it is omitted.
     pub name: String,
-    /// One line for reports.
+    /// One line for reports; the name where it is omitted.
     pub title: String,
     /// Licence of the data.
     pub licence: String,
@@ -233,6 +233,9 @@ pub fn read(folder: &Path) -> Result<(Manifest, TomlSource), DataError> {
         let absolute = folder.canonicalize().unwrap_or_else(|_| folder.to_path_buf());
         manifest.name = absolute.file_name().map_or("data".into(), |n| n.to_string_lossy().into_owned());
     }
+    if manifest.title.trim().is_empty() {
+        manifest.title = manifest.name.clone();
+    }
     let problems = manifest.validate(&source);
     Problems(problems.into_iter().map(DataError::from).collect()).into_result()?;
     Ok((manifest, source))
@@ -321,6 +324,11 @@ impl Measured {
 const POLYNOMIAL_DEGREE: usize = 3;
 
 impl Manifest {
+    /// Name and title in one line; the name alone where it is the title.
+    pub fn heading(&self) -> String {
+        if self.title == self.name { self.name.clone() } else { format!("{}: {}", self.name, self.title) }
+    }
+
     /// Where the data come from.
     pub fn provenance(&self) -> &str {
         if self.source.text.is_empty() { &self.provenance } else { &self.source.text }

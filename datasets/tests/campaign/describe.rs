@@ -25,6 +25,8 @@ fn a_set_is_described_and_drawn() {
     set.write("run_b.csv", &text);
     let (code, shown) = run(&["describe"], &set);
     assert_eq!(code, 0, "{shown}");
+    assert!(shown.starts_with("small\n"), "the name stands for a title: {shown}");
+    assert_eq!(set.campaign().manifest.title, "small");
     let line = |start: &str| {
         let found = shown.lines().find(|l| l.trim_start_matches(['│', ' ']).starts_with(start));
         found.unwrap_or_else(|| panic!("{start} in\n{shown}")).split_whitespace().collect::<Vec<_>>().join(" ")
@@ -37,6 +39,24 @@ fn a_set_is_described_and_drawn() {
     assert!(shown.contains("b (development, 7.8 s)"), "{shown}");
     let dots = shown.chars().filter(|c| (0x2801..=0x28ff).contains(&(*c as u32))).count();
     assert!(dots > 4 * 3 * 30, "{dots} characters are drawn");
+}
+
+/// The hint at the end calls the other program as this one was called.
+#[test]
+fn the_next_command_is_called_as_this_one() {
+    let set = Set::new();
+    let said = |cargo: Option<&str>| {
+        let mut command = Command::cargo_bin("acm-data").expect("acm-data");
+        command.env_remove("CARGO").envs(cargo.map(|cargo| ("CARGO", cargo))).arg("check").arg(set.path());
+        String::from_utf8_lossy(&command.output().expect("runs").stdout).into_owned()
+    };
+    let (folder, installed) =
+        (set.path().display(), assert_cmd::cargo::cargo_bin!("acm-data").with_file_name("acm-eval"));
+    assert!(said(None).ends_with(&format!("next: {} close-loop {folder}\n", installed.display())), "{}", said(None));
+    let by_cargo = said(Some("/usr/bin/cargo"));
+    assert!(
+        by_cargo.contains("next: cargo run ") && by_cargo.contains(&format!(" -p acm-eval -- close-loop {folder}"))
+    );
 }
 
 /// The statistics of the synthetic campaign are those of a continuum arm.

@@ -37,7 +37,7 @@ pub fn section(finding: &Finding) -> Markup {
 pub fn data(data: &Data) -> Markup {
     html! {
         dl {
-            (entry("Data set", &html! { (data.name) ": " (data.title) (badge(data)) }))
+            (entry("Data set", &html! { (data.name) @if data.title != data.name { ": " (data.title) } (badge(data)) }))
             (entry("SHA-256", &html! { code.hash { (data.hash) } }))
             (entry("Calibration trials", &names(&data.calibration, "the nominal model was fitted to them")))
             (entry("Development trials", &names(&data.development, "effects were searched and fitted on them")))
