@@ -15,8 +15,8 @@ pub struct Options {
     pub samples: usize,
     /// Seed of all random numbers.
     pub seed: u64,
-    /// Names of the effects that may be found; all where empty.
-    pub only: Vec<String>,
+    /// Names of the effects that may be found; `None` for all.
+    pub only: Option<Vec<String>>,
     /// Names of effects that are excluded.
     pub without: Vec<String>,
     /// User-defined effects on the rig of the case, beside those of the library.
@@ -25,6 +25,6 @@ pub struct Options {
 
 impl Default for Options {
     fn default() -> Self {
-        Self { criteria: Criteria::default(), samples: 2500, seed: 1, only: vec![], without: vec![], own: vec![] }
+        Self { criteria: Criteria::default(), samples: 2500, seed: 1, only: None, without: vec![], own: vec![] }
     }
 }

@@ -54,7 +54,7 @@ pub fn prepare(mut case: Case, options: &Options) -> Result<Prepared, Calibratio
     calibration.iter_mut().for_each(|series| series.calibrates = true);
     let allowed = |instance: &Instance| {
         let name = instance.effect().name().to_string();
-        (options.only.is_empty() || options.only.contains(&name)) && !options.without.contains(&name)
+        options.only.as_ref().is_none_or(|only| only.contains(&name)) && !options.without.contains(&name)
     };
     let own = options.own.iter().flat_map(|own| Instance::all_own(own, &case.rig));
     let all = Instance::all(&case.rig).into_iter().chain(own);

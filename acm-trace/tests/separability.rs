@@ -139,7 +139,8 @@ fn about() -> About {
 }
 
 fn judged(design: &Design, only: &[&str]) -> Separability {
-    let only = only.iter().map(ToString::to_string).collect();
+    let only: Vec<String> = only.iter().map(ToString::to_string).collect();
+    let only = (!only.is_empty()).then_some(only);
     separability(case(design), about(), &Options { only, ..Options::default() }).unwrap()
 }
 
@@ -287,7 +288,7 @@ fn no_share_depends_on_the_unit_of_the_outputs() {
         }
         case.calibration.iter_mut().chain(&mut case.development).for_each(|trial| trial.measured *= scale);
         let case = Case { nominal: NominalSpec::Polynomial { degree: 1 }, at: vec![], ..case };
-        let only = ["static_gain", "backlash", "actuator_lag"].map(String::from).into();
+        let only = Some(["static_gain", "backlash", "actuator_lag"].map(String::from).into());
         separability(case, about(), &Options { only, ..Options::default() }).unwrap()
     };
     let (one, thousand) = (shares(1.0), shares(1000.0));

@@ -53,8 +53,9 @@ pub struct LoopConfig {
 /// `[effects]`: the effects that are tried. The name of a file alone stands for a table with `file`.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct Effects {
-    /// Stable names; all effects where the list is empty.
-    pub only: Vec<String>,
+    /// Stable names; `None` for all effects.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub only: Option<Vec<String>>,
     /// Effects that are not tried, although `only` allows them.
     pub without: Vec<String>,
     /// Effects of one's own, tried beside those of the library; found as `data` is.
@@ -69,7 +70,7 @@ pub struct Effects {
 #[derive(Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 struct EffectsTable {
-    only: Vec<String>,
+    only: Option<Vec<String>>,
     without: Vec<String>,
     file: Option<PathBuf>,
     define: Vec<Definition>,
@@ -133,6 +134,9 @@ const QUESTION: &str = "Which physical effect does the nominal model lack?";
 
 /// Smallest number of samples. Fewer cannot determine more than the parameters of a few effects.
 const LEAST_SAMPLES: usize = 200;
+
+/// Largest number of samples; more are in no campaign.
+const MOST_SAMPLES: usize = 1_000_000_000;
 
 /// Largest number of effects. No data could distinguish more of them at once.
 const MOST_EFFECTS: usize = 12;
@@ -293,7 +297,7 @@ impl LoopConfig {
     /// Returns whether an effect is tried.
     pub fn tries(&self, effect: &str) -> bool {
         let named = |list: &[String]| list.iter().any(|name| name == effect);
-        (self.effects.only.is_empty() || named(&self.effects.only)) && !named(&self.effects.without)
+        self.effects.only.as_deref().is_none_or(named) && !named(&self.effects.without)
     }
 
     /// Removes the trials of `search.leave_out` from a campaign.
@@ -305,7 +309,7 @@ impl LoopConfig {
         for (place, name) in self.search.leave_out.iter().enumerate() {
             let Some(trial) = campaign.trials.iter_mut().find(|trial| developed(trial, name)) else {
                 let key = ["search".to_string(), "leave_out".into(), place.to_string()];
-                let what = format!("is {name:?}, which is no development trial");
+                let what = format!("`{}` is {name:?}, which is no development trial", key.join("."));
                 return Err(Box::new(source.complaint(&key, what, "name trials of that role, each once")).into());
             };
             trial.role = Role::Excluded;
@@ -324,25 +328,31 @@ impl LoopConfig {
     /// Returns every fault that can be found without the data; `most` is the key of `max_effects` as it was written.
     fn faults(&self, most: &str) -> Vec<Fault> {
         let mut faults = nominal_faults(&self.nominal);
+        if self.data.as_os_str().is_empty() {
+            faults.push(Fault::new("data", "is empty", "name a folder with a manifest.toml"));
+        }
         if self.nominal.augmented.is_some() {
             let help = "give acm-train that model; here, let its predictions be [[predicted]] columns of the data";
             faults.push(Fault::new("nominal.augmented", "is a model that has its effects already", help));
         }
-        for (key, names) in [("effects.only", &self.effects.only), ("effects.without", &self.effects.without)] {
+        let only = self.effects.only.as_deref();
+        for (key, names) in [("effects.only", only.unwrap_or_default()), ("effects.without", &self.effects.without)] {
             faults
                 .extend(names.iter().enumerate().filter_map(|(index, name)| unknown(key, index, name, &self.known())));
         }
         if faults.is_empty() && !self.known().iter().any(|name| self.tries(name)) {
-            let help = "take an effect out of `without`, or add one to `only`; an empty `only` means all";
-            faults.push(Fault::new("effects", "leaves no effect to try", help));
+            let key = if only.is_some_and(<[String]>::is_empty) { "effects.only" } else { "effects" };
+            let help =
+                "take an effect out of `without`, or add one to `only`; without the key `only` all effects are tried";
+            faults.push(Fault::new(key, "leaves no effect to try", help));
         }
         let Search { max_effects, samples, .. } = self.search;
         if !(1..=MOST_EFFECTS).contains(&max_effects) {
             let help = format!("write the number of effects that may be found at once, 1 to {MOST_EFFECTS}");
             faults.push(Fault::new(most, format!("is {max_effects}"), help));
         }
-        if samples < LEAST_SAMPLES {
-            let help = format!("write {LEAST_SAMPLES} or more; 3000 is the default");
+        if !(LEAST_SAMPLES..=MOST_SAMPLES).contains(&samples) {
+            let help = format!("write {LEAST_SAMPLES} or more, {MOST_SAMPLES} at most; 3000 is the default");
             faults.push(Fault::new("search.samples", format!("is {samples}"), help));
         }
         faults

@@ -38,7 +38,11 @@ fn without_noise(task: &Task, finding: &Finding, options: &Options) -> Result<Ve
         let names = |effect: &FoundEffect| effect.parameters.iter().map(|parameter| parameter.name.clone()).collect();
         finding.effects.iter().map(|effect| (effect.name.clone(), names(effect))).collect()
     };
-    let only = finding.effects.iter().map(|effect| effect.name.clone()).collect();
+    let only: Vec<String> = finding.effects.iter().map(|effect| effect.name.clone()).collect();
+    if only.is_empty() {
+        return Ok(vec![]);
+    }
+    let only = Some(only);
     let made = made(task, generate_without_noise)?;
     let quiet = traced(&made.campaign, &Options { only, ..options.clone() }, &name(task))?;
     let is_same = set(&quiet) == set(finding);

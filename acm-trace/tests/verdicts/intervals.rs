@@ -9,7 +9,7 @@ const SEEDS: u64 = 20;
 
 /// Of `SEEDS` campaigns: how many intervals cover the truth, and their mean half-width.
 fn covered(name: &str, value: &str, truth: f64, case: impl Fn(u64) -> Recorded) -> (u64, f64) {
-    let options = Options { only: vec![name.into()], samples: 800, ..Options::default() };
+    let options = Options { only: Some(vec![name.into()]), samples: 800, ..Options::default() };
     let (mut count, mut reach) = (0, 0.0);
     for seed in 0..SEEDS {
         let finding = closed_with(case(100 + seed), &options).finding;

@@ -15,7 +15,7 @@ use toml::{Table, Value};
 /// A network's kind and sizes, and what it corrects.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ExperimentNetwork {
-    /// Places where the corrections enter; the tip alone where it is empty.
+    /// Places where the corrections enter; empty where the key is left out: the tip alone.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub corrects: Vec<Corrected>,
     /// Kind and sizes.
@@ -60,12 +60,19 @@ impl Deref for ExperimentNetwork {
     }
 }
 
+/// An explicit empty list.
+const CORRECTS_NOTHING: &str = "an empty list corrects nothing; write [\"tip\"] or [\"tip\", \"actuators\"]";
+
 /// Reads `corrects` from the table; the network reads the rest, and refuses unknown keys.
 impl<'de> Deserialize<'de> for ExperimentNetwork {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let mut table = Table::deserialize(deserializer)?;
         let corrects = table.remove("corrects").map(Vec::<Corrected>::deserialize).transpose();
-        let corrects = corrects.map_err(|error| D::Error::custom(error.to_string().trim_end()))?.unwrap_or_default();
+        let corrects = corrects.map_err(|error| D::Error::custom(error.to_string().trim_end()))?;
+        if corrects.as_ref().is_some_and(Vec::is_empty) {
+            return Err(D::Error::custom(CORRECTS_NOTHING));
+        }
+        let corrects = corrects.unwrap_or_default();
         let config = NetworkConfig::deserialize(Value::Table(table));
         Ok(Self { corrects, config: config.map_err(|error| D::Error::custom(error.to_string().trim_end()))? })
     }
@@ -92,6 +99,7 @@ mod tests {
     #[test]
     fn what_is_no_network_is_refused_as_before() {
         assert!(read("kind = \"gru\"\nunit = 8").unwrap_err().to_string().contains("unit"));
+        assert!(read("kind = \"gru\"\ncorrects = []").unwrap_err().to_string().contains(CORRECTS_NOTHING));
         assert!(read("kind = \"gru\"\ncorrects = [\"base\"]").unwrap_err().to_string().contains("base"));
     }
 }

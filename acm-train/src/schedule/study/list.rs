@@ -132,6 +132,10 @@ fn faults(list: &List, kind: Kind) -> Vec<Fault> {
         }
     }
     for (v, variant) in list.variant.iter().enumerate() {
+        if variant.only.as_ref().is_some_and(Vec::is_empty) {
+            let help = "name bases, or leave the key out for all of them";
+            faults.push(Fault::new(&format!("variant.{v}.only"), "is empty, so the variant is of no base", help));
+        }
         let unknown = variant.only.iter().flatten().find(|name| !bases.contains(name));
         faults.extend(unknown.map(|name| {
             let what = format!("names {name:?}, which is no base");
