@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Deserializer, Serialize};
 
-use acm_kernels::{Keep, Kernel, Shape};
+use acm_kernels::{Body, Keep, Kernel, Shape};
 use burn::module::Module;
 use burn::tensor::Tensor;
 
@@ -115,6 +115,11 @@ impl NetworkConfig {
     /// network cannot be built. Nothing is allocated.
     pub fn parameter_count(&self, inputs: usize) -> usize {
         Kernel::without_head(&self.architecture().body(), inputs).map_or(0, |kernel| kernel.parameters())
+    }
+
+    /// Returns whether the time between two steps is an input of the network.
+    pub fn reads_elapsed(&self) -> bool {
+        matches!(self.architecture().body(), Body::Cfc(_))
     }
 }
 

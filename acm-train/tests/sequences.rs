@@ -286,6 +286,7 @@ fn tables_that_cannot_be() {
         ("ahead    = 1", "ahead = 2", 2, &["data.ahead", "is 2"]),
         ("time     = \"t\"", "", 2, &["data.time", "data.elapsed", "left out"]),
         ("time     = \"t\"", "time = \"t\"\nelapsed = \"t\"", 2, &["data.elapsed", "delete one"]),
+        ("time     = \"t\"", "time = \"t\"\ntime_unit = \"mm\"", 2, &["data.time_unit", "\"mm\"", "write s, ms"]),
         ("folder   = \"tables\"", "folder = \"chairs\"", 2, &["asked.toml:8", "chairs"]),
         ("folder   = \"tables\"", "folder = \"tables\"\nfiles = [\"*.parquet\"]", 2, &["*.parquet", "no file"]),
         ("folder   = \"tables\"", "folder = \"tables\"\ntest = 0.001", 3, &["test part", "no sequences"]),
@@ -317,6 +318,26 @@ fn what_never_changes_is_told_before_training() {
     let output = run(&constant("[\"x\", \"v\"]", "[\"x\", \"c\"]"), &["--set", "training.epochs=1"]);
     let message = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success() && message.contains("warning: input `c` is 5 in all training"), "{message}");
+}
+
+/// A step of 100 s is one of a table in ms; a network without elapsed time says so in its row.
+#[test]
+fn a_unit_of_time_that_is_another_is_told() {
+    let folder = folder(OSCILLATOR);
+    write_oscillators(folder.path());
+    let edits = ["--set", "training.epochs=1", "--set", "data.time_unit=min", "--set", "control.epochs=1"];
+    let output = run(&folder, &edits);
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success() && message.contains("warning: column `t` has "), "{message}");
+    assert!(message.contains("unit is min; did you mean") && message.contains("time_unit in [data]"), "{message}");
+    let gru = folder.path().join("gru.toml");
+    let text = OSCILLATOR.replace("units          = 16\nbackbone_units = 32", "kind = \"gru\"\nunits = 8");
+    fs::write(&gru, text.replace("[control]\n", "").replace("epochs        = 60", "epochs = 1")).unwrap();
+    let mut command = Command::new(assert_cmd::cargo::cargo_bin!("acm-train"));
+    let output = command.current_dir(folder.path()).args(["--config", "gru.toml"]).output().unwrap();
+    let printed = String::from_utf8_lossy(&output.stdout);
+    assert!(printed.contains("gru, which ignores elapsed time"), "{printed}");
+    assert!(!String::from_utf8_lossy(&output.stderr).contains("warning"), "the steps are plausible");
 }
 
 #[track_caller]

@@ -54,6 +54,26 @@ fn labels_after_the_last_step() -> Result<(), DataError> {
     Ok(())
 }
 
+/// Expected values: the same table in s.
+#[test]
+fn times_have_a_unit() -> Result<(), DataError> {
+    let rows = TABLE.lines().map(|row| {
+        let mut cells: Vec<String> = row.split(',').map(String::from).collect();
+        cells[2] = cells[2].parse::<f64>().map_or(cells[2].clone(), |t| (1000.0 * t).round().to_string());
+        cells.join(",") + "\n"
+    });
+    let (text, wrong) = (rows.collect::<String>(), asked());
+    let right = Tables { time_unit: Some("ms".into()), ..asked() };
+    let (in_ms, in_s) = (read_text(&text, &right, LABELS)?, read_text(TABLE, &asked(), LABELS)?);
+    assert_eq!(in_ms, in_s);
+    assert_eq!(right.implausible_step(&in_ms), None);
+    let warning = wrong.implausible_step(&read_text(&text, &wrong, LABELS)?).expect("steps of 500 s");
+    for part in ["`t` has 500 s from sample to sample", "did you mean ms?", "time_unit"] {
+        assert!(warning.contains(part), "{part} in {warning}");
+    }
+    Ok(())
+}
+
 /// Oracle: the table itself. The next row's value, and the time until then.
 #[test]
 fn numbers_one_step_later() -> Result<(), DataError> {

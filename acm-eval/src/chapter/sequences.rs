@@ -15,6 +15,7 @@ use acm_train::{
     run::{
         record::DataStamp,
         sequences::record::{DataRecord, SequenceRecord, StudyRecord},
+        sequences::table::{ROWS, told},
     },
 };
 
@@ -88,13 +89,9 @@ impl Study {
     /// Returns the elapsed times of each row, and its runs.
     fn rows(&self) -> Vec<(&'static str, Vec<&SequenceRecord>)> {
         let row = |elapsed: Elapsed| {
-            let told = match elapsed {
-                Elapsed::Measured => "elapsed time as measured",
-                Elapsed::One => "elapsed time 1 at every step",
-            };
-            (told, self.runs.iter().filter(|run| run.elapsed == elapsed).collect())
+            let runs: Vec<&SequenceRecord> = self.runs.iter().filter(|run| run.elapsed == elapsed).collect();
+            Some((told(&runs.first()?.question.network, elapsed), runs))
         };
-        let rows = [row(Elapsed::Measured), row(Elapsed::One)];
-        rows.into_iter().filter(|(_, runs): &(_, Vec<_>)| !runs.is_empty()).collect()
+        ROWS.into_iter().filter_map(row).collect()
     }
 }

@@ -46,13 +46,14 @@ const OUT_OF_RANGE: &[(&str, &[&str])] = &[
     ("elapsed", &["\"guessed\""]),
     ("network.kind", &["\"lstm\""]),
     ("network.units", &["0", "-4", "9000"]),
+    ("network.corrects", &["[]", "[\"base\"]"]),
     ("network.mode", &["\"fast\""]),
     ("backbone_units", &["0", "100000"]),
     ("backbone_layers", &["1000"]),
     ("activation", &["\"step\""]),
     ("network.hidden", &["[64, 0]", "[100000]"]),
     ("network.layers", &["0", "65"]),
-    ("training.epochs", &["0", "-1", "10000000"]),
+    ("training.epochs", &["0", "-1", "10000000", "1e18", "60.0"]),
     ("training.batch", &["0", "-64", "10000000"]),
     ("training.learning_rate", &["0.0", "-1e-3", "1e3"]),
     ("optimizer", &["\"sgd\""]),
@@ -80,12 +81,12 @@ const OUT_OF_RANGE: &[(&str, &[&str])] = &[
     ("chosen_from", &["[]", "[\"q1\", \"q1\"]"]),
     ("leave_out", &["\"\""]),
     ("validation_fold", &["2", "-1"]),
-    ("seeds", &["[]", "[1, 1]", "[-1]", "[1.5]"]),
+    ("seeds", &["[]", "[1, 1]", "[-1]", "[1.5]", "[1e3]", "[true]", "[\"1\"]"]),
     ("folds", &["[]", "[[]]", "[[\"1\", \"1\"]]"]),
     ("protocol.held_out", &["[]", "[\"10\", \"10\"]"]),
     ("study", &["\"guess\""]),
     ("experiment", &["\"none.toml\""]),
-    ("only", &["[\"GRU\"]"]),
+    ("only", &["[\"GRU\"]", "[]"]),
     ("sampler", &["\"magic\""]),
     ("sweep.count", &["0", "-1", "100000"]),
     ("sweep.batch", &["0", "100000"]),
@@ -122,6 +123,7 @@ const OUT_OF_RANGE: &[(&str, &[&str])] = &[
     ("data.inputs", &["[]"]),
     ("data.targets", &["[]"]),
     ("data.ahead", &["2"]),
+    ("time_unit", &["\"mm\"", "\"fortnight\"", "\"\""]),
     (
         "table.files",
         &["[\"../*.csv\"]", "[\"/etc/*.csv\"]", "[\"C:\\\\data\\\\*.csv\"]", "[\"~/x.csv\"]", "[\"[.csv\"]"],
@@ -254,7 +256,13 @@ fn wrong_types(value: &str) -> Vec<(&'static str, &'static str)> {
     match format!("x = {value}").parse::<toml::Table>().ok().and_then(|mut t| t.remove("x")) {
         Some(Value::String(_)) => vec![("a number for a text", "17"), ("a list for a text", "[\"a\"]")],
         Some(Value::Integer(_)) => {
-            vec![("a text for a count", "\"many\""), ("a fraction for a count", "1.5"), ("nan for a count", "nan")]
+            vec![
+                ("a text for a count", "\"many\""),
+                ("a fraction for a count", "1.5"),
+                ("nan for a count", "nan"),
+                ("beyond 64 bits with a sign", "18446744073709551615"),
+                ("beyond 128 bits", "-999999999999999999999999999999999999999999"),
+            ]
         }
         Some(Value::Float(_)) => {
             vec![("a text for a number", "\"much\""), ("nan", "nan"), ("infinity", "-inf"), ("too large", "1e999")]

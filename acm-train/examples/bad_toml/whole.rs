@@ -70,6 +70,7 @@ target = "last"
 elapsed = "measured"
 [network]
 kind = "cfc"
+corrects = ["tip"]
 units = 32
 mode = "default"
 backbone_units = 64
@@ -256,6 +257,7 @@ folder = "recordings"
 files = ["*.csv"]
 sequence = "name"
 time = "t"
+time_unit = "ms"
 inputs = ["x", "v"]
 targets = ["x"]
 ahead = 1

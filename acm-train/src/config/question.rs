@@ -13,6 +13,7 @@
 //! kind    = "table"                  # or "bit_stream_xor"
 //! folder  = "recordings"
 //! time    = "t"
+//! time_unit = "ms"                   # left out: "s"
 //! inputs  = ["x", "v"]
 //! targets = ["x"]
 //! ahead   = 1
@@ -155,6 +156,13 @@ impl Default for Control {
 }
 
 impl Question {
+    /// Returns whether a network receives elapsed times as measured, in either row.
+    pub fn reads_elapsed(&self) -> bool {
+        let measured = |elapsed: Elapsed| elapsed == Elapsed::Measured;
+        self.network.reads_elapsed()
+            && (measured(self.elapsed) || self.control.as_ref().is_some_and(|control| measured(control.elapsed)))
+    }
+
     /// Returns the rules for the columns of a table.
     pub fn rules(&self) -> Rules {
         Rules { asked: self.target, labels: self.loss == Loss::CrossEntropy }
@@ -302,6 +310,13 @@ fn tables(question: &Question, asked: &Tables) -> Option<Fault> {
     if asked.time.is_none() && asked.elapsed.is_none() && told {
         let help = "name a column of time stamps (data.time) or of elapsed times, or write elapsed = \"one\"";
         return Some(Fault::new("data.time", "and data.elapsed are left out, so no time is measured", help));
+    }
+    if let (Some(unit), None) = (&asked.time_unit, asked.unit_of_time()) {
+        return Some(Fault::new("data.time_unit", format!("is {unit:?}"), "write s, ms, us, ns, min or h"));
+    }
+    if asked.time_unit.is_some() && asked.time.is_none() && asked.elapsed.is_none() {
+        let help = "delete it, or name the column that it is of";
+        return Some(Fault::new("data.time_unit", "is set without data.time or data.elapsed", help));
     }
     if asked.ahead > 1 {
         let help = "write 0 for the row itself, or 1 for the next";

@@ -57,7 +57,10 @@ pub fn answer(
     told: bool,
 ) -> Result<Answer<Answered>, ScheduleError> {
     let set = set(question, source, request)?;
-    let warnings = constant::look(&set, question.loss)?;
+    let mut warnings = constant::look(&set, question.loss)?;
+    if let (QuestionData::Table(tables), true) = (&question.data, question.reads_elapsed()) {
+        warnings.extend(tables.implausible_step(&set));
+    }
     let data = DataRecord::new(question, &set);
     let folder = RunFolder::hold(request.out, request.hold())?;
     let (format, kind) = (record::FORMAT, Kind::Sequences);

@@ -309,13 +309,19 @@ fn clock(layout: &Layout, trial: &Seen) -> Option<String> {
             number(length)
         ));
     }
-    let (unit, time) = (source.unit, source.unit.dimension == Dimension::Time);
-    (time && step > 0.0 && !STEPS.contains(&step)).then(|| {
-        if trial.typed_time {
-            return format!("{place} has {} s from sample to sample; is that right?", number(step));
-        }
-        let suggestion = suggest(&unit, |converted| STEPS.contains(&converted), step);
-        format!("{place} has {} s from sample to sample; unit is {}{suggestion}", number(step), unit.name)
+    let unit = source.unit;
+    let wrong = wrong_step(&unit, step).filter(|_| unit.dimension == Dimension::Time)?;
+    Some(match trial.typed_time {
+        true => format!("{place} has {} s from sample to sample; is that right?", number(step)),
+        false => format!("{place} {wrong}"),
+    })
+}
+
+/// A step in time, in s, that no recording has, and the unit of time that was meant.
+pub(crate) fn wrong_step(unit: &Unit, step: f64) -> Option<String> {
+    (step > 0.0 && !STEPS.contains(&step)).then(|| {
+        let suggestion = suggest(unit, |converted| STEPS.contains(&converted), step);
+        format!("has {} s from sample to sample; unit is {}{suggestion}", number(step), unit.name)
     })
 }
 

@@ -25,6 +25,7 @@ pub(crate) use plan::Plan;
 pub use quality::Quality;
 pub use resample::{Onto, Rule, resample, slerp};
 pub use series::Series;
+pub(crate) use series::median;
 pub use view::Line;
 pub use write::write;
 

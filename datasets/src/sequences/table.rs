@@ -28,8 +28,11 @@ use serde::{Deserialize, Serialize};
 pub use window::{Windows, whole};
 
 use super::{Asked, SequenceSet};
+use crate::checks::plausible::wrong_step;
 use crate::error::{DataError, Problems};
 use crate::ingest::recording::{self, Recording, TimeColumn, Wanted};
+use crate::join::median;
+use crate::units::{Dimension, Unit};
 
 /// Which files, and what their columns are.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -48,12 +51,15 @@ pub struct Tables {
     /// Column of the sequence's name. Left out: each file is one sequence.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sequence: Option<String>,
-    /// Column of time stamps, s.
+    /// Column of time stamps.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub time: Option<String>,
-    /// Instead: column of the time since the row before, s.
+    /// Instead: column of the time since the row before.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub elapsed: Option<String>,
+    /// Unit of either column; `None` for s.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub time_unit: Option<String>,
     /// Columns that are seen.
     pub inputs: Vec<String>,
     /// Wanted columns.
@@ -87,6 +93,7 @@ impl Default for Tables {
             sequence: None,
             time: None,
             elapsed: None,
+            time_unit: None,
             inputs: vec![],
             targets: vec![],
             ahead: 0,
@@ -97,6 +104,22 @@ impl Default for Tables {
             seed: 1,
             windows: None,
         }
+    }
+}
+
+impl Tables {
+    /// Returns the unit of time; `None` if `time_unit` names no such unit.
+    pub fn unit_of_time(&self) -> Option<Unit> {
+        let unit = Unit::parse(self.time_unit.as_deref().unwrap_or("s")).ok()?;
+        (unit.dimension == Dimension::Time).then_some(unit)
+    }
+
+    /// Returns a warning if the median step of the training part cannot be right.
+    pub fn implausible_step(&self, set: &SequenceSet) -> Option<String> {
+        let column = self.time.as_ref().or(self.elapsed.as_ref())?;
+        let steps: Vec<f64> = set.training.iter().flat_map(|one| &one.elapsed).copied().collect();
+        let wrong = wrong_step(&self.unit_of_time()?, median(&steps))?;
+        Some(format!("warning: column `{column}` {wrong}: write the unit as time_unit in [data]"))
     }
 }
 
@@ -166,7 +189,7 @@ fn files(tables: &Tables, folder: &Path) -> Result<Vec<PathBuf>, DataError> {
     let mut all = vec![];
     for pattern in &tables.files {
         let full = format!("{}/{pattern}", glob::Pattern::escape(&folder.display().to_string()));
-        let found = glob::glob(&full).map(|paths| paths.filter_map(Result::ok).filter(|p| p.is_file()).collect());
+        let found = glob::glob(&full).map(|paths| paths.filter_map(Result::ok).filter(|p| !p.is_dir()).collect());
         let found: Vec<PathBuf> = found.unwrap_or_default();
         if found.is_empty() {
             let what = format!("{}: `data.files` names {pattern:?}, which matches no file", folder.display());

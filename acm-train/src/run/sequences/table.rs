@@ -3,6 +3,7 @@
 
 use acm_core::display::{DIGITS, significant};
 use acm_datasets::text::terminal::ruled;
+use acm_models::NetworkConfig;
 
 use super::{
     record::{DataRecord, SequenceRecord},
@@ -31,9 +32,10 @@ pub struct Together {
     pub scored: Scores,
 }
 
-/// Returns the elapsed times that a network received, in words.
-pub fn told(elapsed: Elapsed) -> &'static str {
+/// Returns the elapsed times that a network receives, in words.
+pub fn told(network: &NetworkConfig, elapsed: Elapsed) -> &'static str {
     match elapsed {
+        _ if !network.reads_elapsed() => "which ignores elapsed time",
         Elapsed::Measured => "elapsed time as measured",
         Elapsed::One => "elapsed time 1 at every step",
     }
@@ -119,7 +121,8 @@ fn line(names: &[String], row: &[&SequenceRecord]) -> Vec<String> {
         Spread::of(&values).map_or(String::new(), |spread| format!("{:.decimals$}", spread.mean))
     };
     let of = |value: &dyn Fn(&SequenceRecord) -> f64| row.iter().map(|record| value(record)).collect::<Vec<f64>>();
-    let mut cells = vec![format!("{}, {}", row[0].question.network.kind(), told(row[0].elapsed))];
+    let network = &row[0].question.network;
+    let mut cells = vec![format!("{}, {}", network.kind(), told(network, row[0].elapsed))];
     match row.iter().map(|record| record.scored().rmse.as_ref()).collect::<Option<Vec<_>>>() {
         None => cells.push(spread(of(&|record| 100.0 * record.scored().accuracy.unwrap_or(f64::NAN)))),
         Some(errors) => cells.extend(errors_of(names, &errors)),

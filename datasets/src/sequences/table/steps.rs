@@ -112,8 +112,14 @@ impl Reader<'_> {
         }
     }
 
+    /// A column of times, in s.
+    fn seconds(&self, column: &str) -> Vec<f64> {
+        let unit = self.tables.unit_of_time();
+        self.column(column).iter().map(|&time| unit.map_or(time, |unit| unit.to_si(time))).collect()
+    }
+
     fn check_time(&self, column: &str) -> Option<DataError> {
-        let time = self.column(column);
+        let time = self.seconds(column);
         let k = (1..time.len()).find(|&k| time[k] <= time[k - 1])?;
         let (path, row, column, before, after) = (self.path(), self.row(k), column.to_string(), time[k - 1], time[k]);
         Some(match after < before {
@@ -196,12 +202,12 @@ impl Reader<'_> {
     fn elapsed(&self) -> Vec<f64> {
         match (&self.tables.time, &self.tables.elapsed) {
             (Some(time), _) => {
-                let time = self.column(time);
+                let time = self.seconds(time);
                 #[expect(clippy::single_range_in_vec_init, reason = "one segment")]
-                let first = median_step(time, &[0..time.len()]);
+                let first = median_step(&time, &[0..time.len()]);
                 std::iter::once(first).chain(time.windows(2).map(|pair| pair[1] - pair[0])).collect()
             }
-            (None, Some(elapsed)) => self.column(elapsed).to_vec(),
+            (None, Some(elapsed)) => self.seconds(elapsed),
             (None, None) => vec![1.0; self.rows.len()],
         }
     }
