@@ -157,8 +157,12 @@ pub enum DataError {
     #[error("trial `{trial}` lies in {first} and in {second}; join the files, or give the trials different names")]
     TrialInTwoFiles { trial: String, first: PathBuf, second: PathBuf },
 
-    #[error("trials `{first}` ({first_file}) and `{second}` ({second_file}) hold the same values; delete one of them")]
-    RepeatedTrial { first: String, first_file: PathBuf, second: String, second_file: PathBuf },
+    #[error(
+        "{path}, column `{column}`: {single} of the {trials} trials that it names have one sample, and a trial needs two; rows \
+         that are poses belong into one trial: leave `trial` out of [table], or give all rows of a recording one name, and \
+         name the trial in [roles] (without a clock, number the poses: time = {{ rate_hz = 10.0 }})"
+    )]
+    TrialOfEachRow { path: PathBuf, column: String, single: usize, trials: usize },
 
     #[error(
         "{path}: the file name does not match the pattern {pattern:?} that gives the trial's name; correct `trial` in \

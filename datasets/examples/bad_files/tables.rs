@@ -241,9 +241,6 @@ fn trials() -> Vec<Case> {
             let lines = rows.iter().map(|r| format!("{},{},{},\n", r[0], r[1], r[2]));
             set.write("data/run_b.csv", "t,q,h,y\n".to_string() + &lines.collect::<String>())
         }),
-        case("the same trial twice", Said::of(3, "run_c.csv", &["hold the same values", "delete one"]), |set| {
-            set.write("data/run_c.csv", csv(&rows(0)))
-        }),
         case("a trial without a role", Said::of(3, "run_e.csv", &["has no role", "[roles]"]), |set| {
             set.write("data/run_e.csv", csv(&rows(5)))
         }),

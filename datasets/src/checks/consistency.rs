@@ -35,27 +35,39 @@ impl Whole {
     }
 }
 
-/// A trial's name is unique, and no two trials hold the same values.
+/// A trial's name is unique.
 pub(crate) fn unique(trials: &[Whole], problems: &mut Vec<DataError>) {
     let mut names: BTreeMap<&str, &Whole> = BTreeMap::new();
-    let mut values: BTreeMap<(usize, u64), &Whole> = BTreeMap::new();
     for trial in trials {
         if let Some(first) = names.insert(&trial.name, trial) {
             let (first, second) = (first.file.clone(), trial.file.clone());
             problems.push(DataError::TrialInTwoFiles { trial: trial.name.clone(), first, second });
         }
-        if trial.samples < LEAST_SAMPLES {
-            continue;
-        }
-        if let Some(first) = values.insert((trial.samples, trial.values), trial) {
-            problems.push(DataError::RepeatedTrial {
-                first: first.name.clone(),
-                first_file: first.file.clone(),
-                second: trial.name.clone(),
-                second_file: trial.file.clone(),
-            });
-        }
     }
+}
+
+/// A warning for each group of trials with the same values: copies, or a robot at rest. Excluded trials may be copies.
+pub(crate) fn repeated(trials: &[Whole], entries: &[Entry]) -> Vec<String> {
+    let roles: BTreeMap<&str, Role> = entries.iter().map(|entry| (entry.name.as_str(), entry.role)).collect();
+    let role = |trial: &Whole| roles.get(trial.name.as_str()).copied();
+    let mut groups: BTreeMap<(usize, u64), Vec<&Whole>> = BTreeMap::new();
+    for trial in trials.iter().filter(|t| t.samples >= LEAST_SAMPLES && role(t) != Some(Role::Excluded)) {
+        groups.entry((trial.samples, trial.values)).or_default().push(trial);
+    }
+    let mut groups: Vec<_> = groups.into_values().filter(|group| group.len() > 1).collect();
+    groups.sort_by_key(|group| &group[0].name);
+    let told = |group: Vec<&Whole>| {
+        let names: Vec<String> = group.iter().map(|t| format!("`{}` ({})", t.name, t.file.display())).collect();
+        let names = short(&names.join(" and "), 400);
+        let held_out = group.iter().find(|t| role(t) == Some(Role::HeldOut));
+        let learned = group.iter().find(|t| matches!(role(t), Some(Role::Development | Role::Calibration)));
+        let leak = held_out.zip(learned).map_or(String::new(), |(held_out, learned)| {
+            let (held_out, role, learned) = (&held_out.name, role(learned).map_or("", Role::name), &learned.name);
+            format!(": held-out trial `{held_out}` repeats {role} trial `{learned}`, so its error tests nothing")
+        });
+        format!("trials {names} hold the same values{leak}; if one is a copy, delete it or exclude it in [roles]")
+    };
+    groups.into_iter().map(told).collect()
 }
 
 /// Roles, cuts, folds and conditions name trials that exist.
@@ -127,8 +139,14 @@ pub(crate) fn folds(manifest: &Manifest, source: &TomlSource, trials: &[Entry], 
     }
 }
 
-/// Trials of one sample; parts of a cut without samples are reported earlier.
-pub(crate) fn recorded(trials: &[Entry], problems: &mut Vec<DataError>) {
+/// Trials of one sample; parts of a cut without samples are reported earlier. Where a column names a trial for each row, the
+/// rows are poses of one trial.
+pub(crate) fn recorded(manifest: &Manifest, trials: &[Entry], problems: &mut Vec<DataError>) {
+    let single = trials.iter().filter(|t| t.samples == 1).count();
+    if let (Some(column), true) = (&manifest.table.trial.column, single > 1 && 2 * single > trials.len()) {
+        let (path, column) = (trials[0].file.clone(), column.clone());
+        return problems.push(DataError::TrialOfEachRow { path, column, single, trials: trials.len() });
+    }
     for trial in trials.iter().filter(|t| t.samples == 1 || (t.samples == 0 && !t.dropped.is_empty())) {
         problems.push(few(trial, trial.samples, LEAST_SAMPLES, String::new(), ""));
     }

@@ -84,13 +84,14 @@ impl Recordings {
         self.warnings.extend(plausible::warnings(&self.manifest, &self.layout, &seen, whole));
         self.warnings.extend(unit_not_used);
         self.warnings.extend(beside);
+        self.warnings.extend(consistency::repeated(&wholes, &self.entries));
         consistency::unique(&wholes, &mut problems);
         problems.extend(misfits);
         let (manifest, source) = (&self.manifest, &self.source);
         if complete {
             // after a file that could not be read, every name in it would be unknown
             consistency::names(manifest, source, &wholes, &self.entries, &mut problems);
-            consistency::recorded(&self.entries, &mut problems);
+            consistency::recorded(manifest, &self.entries, &mut problems);
         }
         consistency::folds(manifest, source, &self.entries, &mut problems);
         if let Some(length) = options.window {

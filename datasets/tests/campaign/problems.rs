@@ -219,8 +219,34 @@ const CASES: &[Case] = &[
         |s| {
             s.write("run_c.csv", &set::csv(&set::rows(0)));
         },
+        0,
+        &["trials `a` (run_a.csv) and `c` (run_c.csv) hold the same values", "held-out trial `c`", "tests nothing"],
+    ),
+    (
+        "two trials at rest",
+        |s| {
+            let rest: Vec<[f64; 4]> = set::rows(0).into_iter().map(|[t, ..]| [t, 3.0, 12.0, 40.0]).collect();
+            s.write("run_a.csv", &set::csv(&rest)).write("run_b.csv", &set::csv(&rest));
+        },
+        0,
+        &["trials `a` (run_a.csv) and `b` (run_b.csv) hold the same values; if one is a copy"],
+    ),
+    (
+        "a name for each row",
+        |s| {
+            let row = |i: usize| format!("p{i},{},{},12,{}\n", 100 * i, i % 7, 3 * i);
+            s.write("poses.csv", &("name,t,q,h,y\n".to_string() + &(0..200).map(row).collect::<String>()));
+            let names = (0..200).map(|i| format!("\"p{i}\", ")).collect::<String>();
+            s.edit("manifest.toml", "run_*.csv", "poses.csv").edit(
+                "manifest.toml",
+                "file = \"run_(.*)\"",
+                "column = \"name\"",
+            );
+            s.edit("manifest.toml", "[\"a\", \"b\"]", &format!("[{names}]"));
+            s.edit("manifest.toml", "[\"c\"]", "[]").edit("manifest.toml", "[\"d\"]", "[]");
+        },
         3,
-        &["`a`", "`c`", "run_a.csv", "run_c.csv", "hold the same values", "delete one"],
+        &["error: poses.csv, column `name`: 200 of the 200 trials", "leave `trial` out of [table]", "rate_hz"],
     ),
     (
         "trial without a role",
@@ -371,7 +397,10 @@ fn every_problem_names_its_place_and_its_remedy() {
     for (name, spoil, code, expected) in CASES {
         let set = Set::new();
         spoil(&set);
-        let (found, message) = check(&set);
+        let (found, mut message) = check(&set);
+        if found == 0 {
+            message = set.campaign().warnings.join("\n");
+        }
         let missing: Vec<_> = expected.iter().filter(|e| !message.contains(**e)).collect();
         if found != *code || !missing.is_empty() || message.contains("panicked") {
             failures.push(format!("{name}: exit code {found}, without {missing:?}:\n{message}"));
