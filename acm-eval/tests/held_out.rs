@@ -87,3 +87,24 @@ fn held_out_trials_leave_what_is_found_as_it_is() {
     assert_ne!(errors("first"), errors("second"));
     assert_ne!(errors("second")["after"], Value::Null);
 }
+
+/// Every 1.5 s the output is lost for 0.3 s. Oracle: the rig's delay and noise. What is lost is no sample, and its command still acts
+/// later.
+#[test]
+fn commands_act_where_the_output_was_lost() {
+    let rig = Rig::new();
+    for name in ["c1", "d1", "d2", "d3", "d4", "h1", "h2"] {
+        let text = fs::read_to_string(rig.path(&format!("arm/{name}.csv"))).unwrap();
+        let row = |(k, line): (usize, &str)| match k > 0 && k % 30 < 6 {
+            true => line.rsplit_once(',').unwrap().0.to_string() + ",\n",
+            false => line.to_string() + "\n",
+        };
+        rig.write(&format!("arm/{name}.csv"), &text.lines().enumerate().map(row).collect::<String>());
+    }
+    let (printed, found) = rig.close(&["arm"], "out");
+    assert_eq!((&found["effects"][0]["name"], found["effects"].as_array().unwrap().len()), (&json!("dead_time"), 1));
+    let delay = &found["effects"][0]["parameters"][0]["value"];
+    assert!((delay.as_f64().unwrap() - delayed::DELAY).abs() < 0.005, "{delay}");
+    let error = found["errors"]["after"]["value"].as_f64().unwrap();
+    assert!(error < 1.1e-3 * delayed::NOISE_MM, "{error}: {printed}");
+}

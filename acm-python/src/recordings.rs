@@ -369,13 +369,13 @@ pub fn place(data: &Bound<'_, PyAny>, tables: Option<PathBuf>) -> PyResult<Place
 /// What ``acm-data check`` says of recordings without problems: trials, samples, warnings. Trials shorter than ``window`` samples in a
 /// row, without a gap over ``max_gap`` s, are problems.
 #[pyfunction]
-#[pyo3(signature = (data, *, tables=None, window=50, max_gap=0.5))]
+#[pyo3(signature = (data, *, tables=None, window=50, max_gap=None))]
 pub fn check(
     py: Python<'_>,
     data: &Bound<'_, PyAny>,
     tables: Option<PathBuf>,
     window: usize,
-    max_gap: f64,
+    max_gap: Option<f64>,
 ) -> PyResult<Text> {
     let opened = open(py, place(data, tables)?, Some(window), max_gap)?;
     Ok(Text(describe::checked(&opened).trim_end().to_string()))
@@ -383,8 +383,8 @@ pub fn check(
 
 /// What ``acm-data describe`` prints: trials, ranges, clocks, and every signal drawn.
 #[pyfunction]
-#[pyo3(name = "describe", signature = (data, *, tables=None, max_gap=0.5))]
-pub fn described(py: Python<'_>, data: &Bound<'_, PyAny>, tables: Option<PathBuf>, max_gap: f64) -> PyResult<Text> {
+#[pyo3(name = "describe", signature = (data, *, tables=None, max_gap=None))]
+pub fn described(py: Python<'_>, data: &Bound<'_, PyAny>, tables: Option<PathBuf>, max_gap: Option<f64>) -> PyResult<Text> {
     let place = place(data, tables)?;
     let folder = place.folder.clone();
     let opened = open(py, place, None, max_gap)?;
@@ -392,8 +392,8 @@ pub fn described(py: Python<'_>, data: &Bound<'_, PyAny>, tables: Option<PathBuf
     Ok(Text(text.trim_end().to_string()))
 }
 
-fn open(py: Python<'_>, place: Place, window: Option<usize>, max_gap: f64) -> PyResult<Opened> {
-    if !(max_gap > 0.0 && max_gap.is_finite()) {
+fn open(py: Python<'_>, place: Place, window: Option<usize>, max_gap: Option<f64>) -> PyResult<Opened> {
+    if let Some(max_gap) = max_gap.filter(|gap| !(*gap > 0.0 && gap.is_finite())) {
         return Err(usage(format!("max_gap is {max_gap}; give a finite number above 0")));
     }
     let read = move |_: &_| {

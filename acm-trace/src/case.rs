@@ -18,7 +18,8 @@ pub struct Trial {
     pub record: Record,
     /// Signals right before the trial, where it was cut from a longer record: they set the initial memory of effects.
     pub lead: Option<Record>,
-    /// Measured outputs [T×M], SI.
+    /// Measured outputs [T×M], SI; a row of NaN where none was measured: effects remember the signals of these samples, and
+    /// nothing is compared there.
     pub measured: DMatrix<f64>,
     /// The prediction that came with the data [T×M].
     pub predicted: Option<DMatrix<f64>>,
@@ -28,6 +29,11 @@ pub struct Trial {
 }
 
 impl Trial {
+    /// Returns the samples whose outputs were measured.
+    pub fn measured_rows(&self) -> Vec<usize> {
+        (0..self.measured.nrows()).filter(|&t| self.measured.row(t).iter().all(|y| y.is_finite())).collect()
+    }
+
     /// Returns the lead and the trial joined, and the number of lead samples: a multiple of `stride`.
     pub fn led(&self, stride: usize) -> (Cow<'_, Record>, usize) {
         // Given predictions begin with the trial.

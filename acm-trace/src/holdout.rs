@@ -167,8 +167,9 @@ fn centred((trial, residual): (&Trial, &DMatrix<f64>)) -> DMatrix<f64> {
 /// Returns whether each sample is measured, and after the warm-up, which a long enough lead covers.
 fn counts(trial: &Trial) -> Vec<bool> {
     let begin = warm_up(&trial.led(1).0.time);
-    let finite = |t: usize| trial.measured.row(t).iter().all(|y| y.is_finite());
-    trial.record.time.iter().enumerate().map(|(t, time)| *time >= begin && finite(t)).collect()
+    let mut counts = vec![false; trial.record.samples()];
+    trial.measured_rows().into_iter().for_each(|t| counts[t] = trial.record.time[t] >= begin);
+    counts
 }
 
 /// Share of the noise's mean square below which there is nothing to remove.

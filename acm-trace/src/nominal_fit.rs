@@ -28,7 +28,7 @@ pub fn calibrate_nominal(case: &mut Case, is_open: bool) -> Result<Nominal, Cali
         return stand_in(case);
     }
     let trials = if case.calibration.is_empty() { &case.development } else { &case.calibration };
-    let observations = thinned(observations(trials, &case.at, |trial| &trial.measured));
+    let observations = thinned(measured(observations(trials, &case.at, |trial| &trial.measured)));
     let model = calibrate(&case.nominal, &observations)?.model;
     let completed = completion(&model, &observations, case, is_open);
     let in_use = completed.as_ref().unwrap_or(&model);

@@ -122,7 +122,7 @@ fn missed(q: &[f64], every: usize) -> f64 {
 /// Takes every k-th sample, so that as many numbers are compared as `samples` of three outputs have; k is a multiple of
 /// `every`.
 fn thinned(trials: &[Trial], case: &Case, options: &Options, every: usize) -> Vec<Series> {
-    let total: usize = trials.iter().map(|trial| trial.record.samples()).sum();
+    let total: usize = trials.iter().map(|trial| trial.measured_rows().len()).sum();
     let numbers = total * case.rig.outputs.len().max(2);
     let stride = numbers.div_ceil(3 * options.samples.max(1)).max(1).div_ceil(every) * every;
     trials.iter().map(|trial| Series::new(trial, stride)).collect()

@@ -94,7 +94,7 @@ pub fn separability(case: Case, about: About, options: &Options) -> Result<Separ
 
 /// Returns options with as many samples as the question needs.
 fn thinned(case: &Case, options: &Options) -> Options {
-    let total: usize = case.development.iter().map(|trial| trial.record.samples()).sum();
+    let total: usize = case.development.iter().map(|trial| trial.measured_rows().len()).sum();
     let numbers = total * case.rig.outputs.len().max(2);
     let fast = if case.rig.step > 0.0 { (STEP / case.rig.step * (1.0 + 1e-6)) as usize } else { 1 };
     let stride = fast.max(numbers.div_ceil(NUMBERS)).max(1);

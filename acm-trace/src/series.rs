@@ -25,6 +25,8 @@ pub struct Series {
     pub inter_sample: InterSample,
     /// The N compared samples, as rows of the record.
     pub rows: Vec<usize>,
+    /// Whether the record begins with a lead.
+    pub is_led: bool,
     /// The record at these samples.
     pub thin: Record,
     /// Measured values [N×M], row by row, SI.
@@ -59,10 +61,10 @@ pub fn warm_up(time: &[f64]) -> f64 {
 }
 
 impl Series {
-    /// Takes every `stride`-th sample of a trial; blocks are set to zero.
+    /// Takes every `stride`-th measured sample of a trial; blocks are set to zero.
     pub fn new(trial: &Trial, stride: usize) -> Self {
         let stride = stride.max(1);
-        let rows: Vec<usize> = (0..trial.record.samples()).step_by(stride).collect();
+        let rows: Vec<usize> = trial.measured_rows().into_iter().step_by(stride).collect();
         let (record, lead) = trial.led(stride);
         let begin = warm_up(&record.time);
         let pick = |matrix: &DMatrix<f64>| -> Vec<f64> {
@@ -79,6 +81,7 @@ impl Series {
             block: vec![0; rows.len()],
             calibrates: false,
             rows: rows.iter().map(|&t| lead + t).collect(),
+            is_led: lead > 0,
             record: record.into_owned(),
             inter_sample: InterSample::Straight,
         }
@@ -99,19 +102,23 @@ impl Series {
         Self { record, rows: self.rows.iter().map(|t| t + before.samples()).collect(), ..self.clone() }
     }
 
-    /// Returns a series with every `every`-th sample of the record, and every `fewer`-th of those that are compared;
-    /// these have to lie on the former.
+    /// Returns a series with every `every`-th sample of the record and every `fewer`-th of those that are compared.
     #[must_use]
     pub fn decimated(&self, every: usize, fewer: usize) -> Self {
-        let left: Vec<usize> = (0..self.record.samples()).step_by(every).collect();
         let looked_at: Vec<usize> = (0..self.rows.len()).step_by(fewer).collect();
+        // Of a whole record, those that are compared lie on the others.
+        let every_one = (0..self.record.samples()).step_by(every);
+        let mut left: Vec<usize> = every_one.chain(looked_at.iter().map(|&n| self.rows[n])).collect();
+        left.sort_unstable();
+        left.dedup();
         let width = self.measured.len() / self.rows.len().max(1);
         let numbers = |all: &[f64]| looked_at.iter().flat_map(|&n| all[n * width..][..width].to_vec()).collect();
         Self {
             name: self.name.clone(),
             record: self.record.select(&left),
             inter_sample: self.inter_sample.clone(),
-            rows: looked_at.iter().map(|&n| self.rows[n] / every).collect(),
+            rows: looked_at.iter().map(|&n| left.partition_point(|&t| t < self.rows[n])).collect(),
+            is_led: self.is_led,
             thin: self.thin.select(&looked_at),
             measured: numbers(&self.measured),
             predicted: self.predicted.as_ref().map(|given| given.select_rows(&left)),
@@ -231,5 +238,20 @@ mod tests {
         assert_eq!(decimated.measured, [0.0, 1.0, 600.0, 601.0, 1200.0, 1201.0]);
         // The warm-up is 6 % of 12 s.
         assert_eq!(decimated.counts, [false, true, true]);
+    }
+
+    /// Oracle: by hand. Samples 0, 3 and 4 of 9 were not measured: every second of the others is compared, on the whole record.
+    #[test]
+    fn samples_without_an_output_stay_in_the_record() {
+        let time: Vec<f64> = (0..9).map(f64::from).collect();
+        let record = Record::new(time.clone(), vec![time.clone()], vec![], vec![]);
+        let measured = DMatrix::from_fn(9, 1, |t, _| if [0, 3, 4].contains(&t) { f64::NAN } else { t as f64 });
+        let trial = Trial { name: String::new(), record, lead: None, measured, predicted: None, offset: None };
+        let series = Series::new(&trial, 2);
+        assert_eq!((series.rows.as_slice(), series.measured.as_slice()), ([1, 5, 7].as_slice(), [1.0, 5.0, 7.0].as_slice()));
+        assert_eq!((series.record.samples(), series.is_led), (9, false));
+        let decimated = series.decimated(4, 2);
+        assert_eq!(decimated.record.time, [0.0, 1.0, 4.0, 7.0, 8.0]);
+        assert_eq!((decimated.rows.as_slice(), decimated.measured.as_slice()), ([1, 3].as_slice(), [1.0, 7.0].as_slice()));
     }
 }

@@ -5,6 +5,7 @@ mod campaign;
 
 use std::fs;
 
+use acm_train::run::record::read_records;
 use campaign::{Campaign, EXPERIMENT, TRIALS};
 
 fn run(campaign: &Campaign, text: &str, arguments: &[&str]) -> (i32, String) {
@@ -30,6 +31,17 @@ fn rewrite(campaign: &Campaign, trial: &str, column: usize, value: impl Fn(usize
         cells.join(",") + "\n"
     });
     campaign.write(&file, &format!("{header}\n{}", rows.collect::<String>()));
+}
+
+/// The rows of a trial with the outputs of some emptied.
+fn lose(campaign: &Campaign, trial: &str, lost: impl Fn(usize) -> bool) {
+    let file = format!("data/{trial}.csv");
+    let text = String::from_utf8(campaign.read(&file)).unwrap();
+    let row = |(k, line): (usize, &str)| match k > 0 && lost(k - 1) {
+        true => line.split(',').take(4).collect::<Vec<_>>().join(",") + ",,,\n",
+        false => line.to_string() + "\n",
+    };
+    campaign.write(&file, &text.lines().enumerate().map(row).collect::<String>());
 }
 
 /// The rate rises from epoch to epoch until the decay of the weights makes them grow.
@@ -136,4 +148,37 @@ fn folds_and_windows_that_leave_nothing_are_refused_with_their_key() {
     let (code, message) = run(&campaign, &EXPERIMENT.replace("\"none\"", "\"box\""), &[]);
     assert_eq!(code, 2, "{message}");
     says(&message, &["windows.reach", "the domain filter left out", "widen inputs.domain_filter"]);
+}
+
+/// Steps of 1 s are no gaps, and the record notes which gap was used; a gap that is given is taken as it is.
+#[test]
+fn a_slow_process_is_learned_from() {
+    let campaign = Campaign::new();
+    TRIALS.iter().for_each(|trial| rewrite(&campaign, trial, 0, |_, t| 10.0 * t));
+    let (code, message) = run(&campaign, EXPERIMENT, &[]);
+    assert_eq!(code, 0, "{message}");
+    let windows = &read_records(&campaign.path("runs/tiny")).unwrap()[0].experiment.windows;
+    assert!((windows.gap() - 5.0).abs() < 1e-9, "{}", windows.gap());
+    let (code, message) = run(&campaign, EXPERIMENT, &["--out", "short", "--set", "windows.max_gap=0.5"]);
+    assert_eq!(code, 2, "{message}");
+    says(&message, &["windows.reach", "1 samples without a gap over 0.5 s"]);
+}
+
+/// Windows of five samples hold the inputs of those without an output. Oracle: by hand. Samples 1, 4, …, 88 of 90 lack it: of the 86
+/// windows, which end at 4 to 89, 29 are not scored.
+#[test]
+fn windows_reach_over_samples_without_an_output() {
+    let campaign = Campaign::new();
+    TRIALS.iter().for_each(|trial| lose(&campaign, trial, |k| k % 3 == 1));
+    for target in ["last", "every"] {
+        let text = EXPERIMENT.replace("reach  = 5", &format!("reach = 5\ntarget = \"{target}\""));
+        let (code, message) = run(&campaign, &text, &["--out", target]);
+        assert_eq!(code, 0, "{message}");
+        for record in read_records(&campaign.path(target)).unwrap() {
+            let scored = record.held_out.unwrap();
+            let samples: Vec<usize> = scored.trials["h1"].values().map(|score| score.samples).collect();
+            assert!(!samples.is_empty() && samples.iter().all(|count| *count == 57), "{samples:?}");
+            assert_eq!(record.data.trials["h1"].samples, 60);
+        }
+    }
 }

@@ -47,7 +47,7 @@ impl Campaign {
     }
 
     /// As [`Campaign::read`]; development and held-out trials that have no `window` samples in a row without a gap
-    /// over `max_gap` seconds are problems too.
+    /// ([`max_gap`](crate::max_gap)) are problems too.
     ///
     /// # Errors
     /// As [`Campaign::read`].
@@ -55,15 +55,15 @@ impl Campaign {
         folder: &Path,
         data_folder: Option<&Path>,
         window: usize,
-        max_gap: f64,
+        max_gap: impl Into<Option<f64>>,
     ) -> Result<Campaign, DataError> {
-        Campaign::read_for(folder, data_folder, Some((window, max_gap)))
+        Campaign::read_for(folder, data_folder, Some((window, max_gap.into())))
     }
 
     fn read_for(
         folder: &Path,
         data_folder: Option<&Path>,
-        window: Option<(usize, f64)>,
+        window: Option<(usize, Option<f64>)>,
     ) -> Result<Campaign, DataError> {
         let mut options = Options { hold: usize::MAX, ..Options::default() };
         if let Some((length, max_gap)) = window {
@@ -128,8 +128,9 @@ impl Campaign {
         parsed.collect::<Result<_, _>>().map_err(|e| DataError::Usage(e.to_string()))
     }
 
-    /// The list of the trials; a step in time over `max_gap` seconds is a gap.
-    pub fn entries(&self, max_gap: f64) -> Vec<Entry> {
+    /// The list of the trials; a step in time over `max_gap` seconds is a gap, or what [`max_gap`](crate::max_gap) says.
+    pub fn entries(&self, max_gap: impl Into<Option<f64>>) -> Vec<Entry> {
+        let max_gap = max_gap.into();
         self.trials.iter().map(|trial| Entry::of(trial, max_gap)).collect()
     }
 }

@@ -13,12 +13,13 @@ use acm_core::display::significant;
 use comfy_table::Table;
 use nalgebra::DMatrix;
 
+use crate::entry::Entry;
 use crate::error::DataError;
 use crate::join::How;
 use crate::manifest::{Manifest, Role};
-use crate::preprocessing::segments::{median_step, segments};
+use crate::preprocessing::segments::{max_gap, median_step, segments, usual_step};
 use crate::recordings::Recordings;
-use crate::trial::Trial;
+use crate::trial::{DropReason, Trial};
 use crate::units::Unit;
 
 use self::table::table;
@@ -34,15 +35,15 @@ const LISTED: usize = 20;
 /// Names that are shown of a longer list.
 const NAMED: usize = 30;
 
-/// Trials, ranges, clocks and drawn signals of a set that was opened from `folder`; a longer step in time than `max_gap` seconds is a
-/// gap. With `picture`, an SVG of its several sources on one clock is written there.
+/// Trials, ranges, clocks and drawn signals of a set that was opened from `folder`; a longer step in time than `given` seconds is a
+/// gap, or what [`max_gap`] says. With `picture`, an SVG of its several sources on one clock is written there.
 ///
 /// # Errors
 /// A trial that is read again and cannot be; a picture of a set of one source, or one that cannot be written.
 pub fn description(
     data: &Recordings,
     folder: &Path,
-    max_gap: f64,
+    given: Option<f64>,
     picture: Option<&Path>,
 ) -> Result<String, DataError> {
     if let Some(file) = picture.filter(|_| data.alignments.is_empty()) {
@@ -53,9 +54,10 @@ pub fn description(
         return Err(DataError::Usage(what));
     }
     let mut text = String::new();
-    let seen = Seen::of(data, max_gap)?;
+    let seen = Seen::of(data, given)?;
     head(data, &mut text);
     let _ = writeln!(text, "\nTrials\n{}", seen.trials());
+    gaps(data, given, &mut text);
     let _ = writeln!(text, "\nRanges (SI)\n{}", seen.ranges());
     if !data.alignments.is_empty() {
         let _ = writeln!(text, "\nClocks\n{}", clocks::table(data));
@@ -77,10 +79,31 @@ pub fn checked(data: &Recordings) -> String {
     recognised(data, &mut text);
     warned(data, &mut text);
     let (samples, trials) = (data.samples(), data.entries.len());
-    let dropped: usize = data.entries.iter().flat_map(|entry| entry.dropped.values()).sum();
-    let name = &data.manifest.name;
-    let _ = writeln!(text, "{name}: {trials} trials, {samples} samples, {dropped} left out: no problems");
+    let count = |lost: bool| -> usize {
+        let dropped = data.entries.iter().flat_map(|entry| &entry.dropped);
+        dropped.filter(|(reason, _)| (**reason == DropReason::MissingMarker) == lost).map(|(_, count)| count).sum()
+    };
+    let without = match count(true) {
+        0 => String::new(),
+        lost => format!("{lost} without an output (only their inputs are used), "),
+    };
+    let (name, dropped) = (&data.manifest.name, count(false));
+    let _ = writeln!(text, "{name}: {trials} trials, {samples} samples, {without}{dropped} left out: no problems");
     text
+}
+
+/// What a gap is, where it is not half a second in all trials.
+fn gaps(data: &Recordings, given: Option<f64>, text: &mut String) {
+    let longest = |a: &Entry, b: &Entry| a.max_gap.total_cmp(&b.max_gap);
+    let Some(slowest) = data.entries.iter().max_by(|a, b| longest(a, b)) else { return };
+    let (longest, name) = (significant(slowest.max_gap, 4), &slowest.name);
+    let _ = match given {
+        Some(_) => writeln!(text, "gap: a step in time over {longest} s"),
+        None if slowest.max_gap > max_gap(None, 0.0) => {
+            writeln!(text, "gap: a step in time over five usual steps of the trial, at least 0.5 s ({longest} s in {name})")
+        }
+        None => return,
+    };
 }
 
 /// What was recognised in the files of several sources, and how their clocks stand.
@@ -154,7 +177,7 @@ struct Signal {
 }
 
 impl Seen {
-    fn of(data: &Recordings, max_gap: f64) -> Result<Self, DataError> {
+    fn of(data: &Recordings, given: Option<f64>) -> Result<Self, DataError> {
         let (rows, more, listed) = (BTreeMap::new(), BTreeMap::new(), Vec::new());
         let mut seen = Self { signals: signals(&data.manifest), rows, more, listed };
         let most = if data.entries.len() > MANY { LISTED } else { MANY };
@@ -165,7 +188,7 @@ impl Seen {
             let rows = seen.rows.entry(place).or_default();
             match rows.len() < most {
                 true => {
-                    rows.push(row(&trial, max_gap));
+                    rows.push(row(&trial, given));
                     seen.listed.push(index);
                 }
                 false => *seen.more.entry(place).or_insert(0) += 1,
@@ -201,10 +224,11 @@ impl Seen {
     }
 }
 
-fn row(trial: &Trial, max_gap: f64) -> [String; 8] {
-    let parts = segments(&trial.time, max_gap);
-    let step = median_step(&trial.time, &parts);
-    let longest = trial.time.windows(2).map(|t| t[1] - t[0]).fold(0.0, f64::max);
+fn row(trial: &Trial, given: Option<f64>) -> [String; 8] {
+    let time = &trial.with_unmeasured().0.time;
+    let parts = segments(time, max_gap(given, usual_step(time)));
+    let step = median_step(time, &parts);
+    let longest = time.windows(2).map(|t| t[1] - t[0]).fold(0.0, f64::max);
     let left_out: Vec<String> = trial.dropped.iter().map(|(why, n)| format!("{n} {why}")).collect();
     [
         trial.name.clone(),

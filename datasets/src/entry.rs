@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 use crate::levels::Level;
 use crate::manifest::Role;
-use crate::preprocessing::segments::segments;
+use crate::preprocessing::segments::{max_gap, segments, usual_step};
 use crate::trial::{DropReason, Trial};
 
 /// A trial in the list of a data set.
@@ -18,8 +18,10 @@ pub struct Entry {
     pub role: Role,
     /// Number of samples.
     pub samples: usize,
-    /// Samples of its longest stretch without a gap.
+    /// Largest number of samples that lead up to one of them without a gap, including those without an output.
     pub longest: usize,
+    /// Longest step in time that is no gap, s.
+    pub max_gap: f64,
     /// Mean and spread of each actuator, then of each context signal.
     pub levels: Vec<Level>,
     /// Constants, SI.
@@ -42,14 +44,21 @@ pub(crate) struct Place {
 }
 
 impl Entry {
-    /// The line of a trial; a step in time over `max_gap` seconds is a gap.
-    pub fn of(trial: &Trial, max_gap: f64) -> Self {
+    /// Returns the line of a trial; a step in time over `given` seconds is a gap, or what [`max_gap`] says.
+    pub fn of(trial: &Trial, given: Option<f64>) -> Self {
+        let (whole, rows) = trial.with_unmeasured();
+        let max_gap = max_gap(given, usual_step(&whole.time));
+        let samples = |segment: std::ops::Range<usize>| {
+            let last = rows[..rows.partition_point(|row| *row < segment.end)].last();
+            last.filter(|last| segment.contains(last)).map_or(0, |last| last + 1 - segment.start)
+        };
         let columns = trial.actuators.column_iter().chain(trial.context.column_iter());
         Self {
             name: trial.name.clone(),
             role: trial.role,
             samples: trial.samples(),
-            longest: segments(&trial.time, max_gap).iter().map(ExactSizeIterator::len).max().unwrap_or(0),
+            longest: segments(&whole.time, max_gap).into_iter().map(samples).max().unwrap_or(0),
+            max_gap,
             levels: columns.map(|column| Level::of(column.iter())).collect(),
             conditions: trial.conditions.clone(),
             dropped: trial.dropped.clone(),

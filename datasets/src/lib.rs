@@ -38,7 +38,7 @@ pub use error::{DataError, More, Problems};
 pub use manifest::{Manifest, Role};
 pub use preprocessing::channel::{Channel, UnknownChannel, default_channels, rate};
 pub use preprocessing::domain::{Domain, DomainFilter, domain_filter};
-pub use preprocessing::segments::{median_step, segments};
+pub use preprocessing::segments::{max_gap, median_step, segments, usual_step};
 pub use preprocessing::series::{Series, series};
 pub use preprocessing::standardizer::{Means, Spreads, Standardizer};
 pub use preprocessing::windows::{Window, WindowSpec, windows, windows_of};

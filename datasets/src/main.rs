@@ -151,9 +151,9 @@ struct Set {
     /// Folder with the data files, where they are not beside the manifest.
     #[arg(long)]
     data: Option<PathBuf>,
-    /// A longer step in time is a gap, s.
-    #[arg(long, default_value_t = 0.5, value_parser = positive)]
-    max_gap: f64,
+    /// A longer step in time is a gap, s [default: five usual steps of the trial, at least 0.5 s]
+    #[arg(long, value_parser = positive)]
+    max_gap: Option<f64>,
 }
 
 fn main() -> ExitCode {

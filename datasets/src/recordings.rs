@@ -33,8 +33,8 @@ pub const HOLD: usize = 1 << 20;
 pub struct Options<'a> {
     /// Development and held-out trials without so many samples in a row are problems.
     pub window: Option<usize>,
-    /// A longer step in time is a gap, s.
-    pub max_gap: f64,
+    /// A longer step in time is a gap, s; by default what [`max_gap`](crate::max_gap) says.
+    pub max_gap: Option<f64>,
     /// Sets with more samples than these are read again whenever they are needed.
     pub hold: usize,
     /// Is called with the samples that were read.
@@ -43,7 +43,7 @@ pub struct Options<'a> {
 
 impl Default for Options<'_> {
     fn default() -> Self {
-        Self { window: None, max_gap: 0.5, hold: HOLD, progress: &|_| {} }
+        Self { window: None, max_gap: None, hold: HOLD, progress: &|_| {} }
     }
 }
 

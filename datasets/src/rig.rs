@@ -55,8 +55,10 @@ pub fn rig(campaign: &Campaign, used: &[&Trial]) -> Rig {
     }
 }
 
-/// A trial as an effect sees it. A condition that an excluded trial lacks counts as 0.
+/// Returns a trial as an effect sees it: the samples of [`Trial::with_unmeasured`]. A condition that an excluded trial lacks
+/// counts as 0.
 pub fn record(campaign: &Campaign, trial: &Trial) -> Record {
+    let (trial, _) = trial.with_unmeasured();
     let columns = |matrix: &DMatrix<f64>| matrix.column_iter().map(|c| c.iter().copied().collect()).collect();
     let mut contexts: Vec<Vec<f64>> = columns(&trial.context);
     let constant = |name: &String| vec![trial.conditions.get(name).copied().unwrap_or(0.0); trial.samples()];
@@ -106,7 +108,10 @@ fn moves(trial: &Trial) -> bool {
 
 /// Median time between samples, s; of an even number the lower middle one, and 0 where no trial has two samples.
 fn step(used: &[&Trial]) -> f64 {
-    let mut steps: Vec<f64> = used.iter().flat_map(|trial| trial.time.windows(2).map(|t| t[1] - t[0])).collect();
+    let mut steps: Vec<f64> = Vec::new();
+    for trial in used {
+        steps.extend(trial.with_unmeasured().0.time.windows(2).map(|t| t[1] - t[0]));
+    }
     if steps.is_empty() {
         return 0.0;
     }

@@ -1,5 +1,6 @@
 //! One recorded run.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::fmt;
 use std::path::PathBuf;
@@ -9,11 +10,11 @@ use serde::{Deserialize, Serialize};
 
 use crate::manifest::Role;
 
-/// Why samples of a trial take no part.
+/// Why samples of a trial are not compared.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum DropReason {
-    /// A measured cell is empty: the marker was lost.
+    /// A measured cell is empty: the marker was lost. The inputs of the sample are used ([`Trial::unmeasured`]).
     MissingMarker,
     /// A cell of the vehicle's position or attitude is empty.
     MissingVehicle,
@@ -24,6 +25,8 @@ pub enum DropReason {
 }
 
 /// One recorded run in SI units: `T` samples, `A` actuators, `E` context signals, `M` outputs.
+///
+/// All its samples have all signals. Whatever has a memory (effects, windows) takes [`Trial::with_unmeasured`] instead.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Trial {
     /// Name, unique in the campaign.
@@ -48,6 +51,8 @@ pub struct Trial {
     pub dropped: BTreeMap<DropReason, usize>,
     /// File relative to the data folder.
     pub file: PathBuf,
+    /// Samples before or between these that have all inputs and no output; its `measured` has no columns.
+    pub unmeasured: Option<Box<Trial>>,
 }
 
 impl Trial {
@@ -64,8 +69,47 @@ impl Trial {
         }
     }
 
-    /// The samples of `rows`, which are increasing; what was left out before stays counted.
+    /// Returns the number of samples, including those without an output.
+    pub fn recorded(&self) -> usize {
+        self.samples() + self.unmeasured.as_ref().map_or(0, |lost| lost.samples())
+    }
+
+    /// Returns all samples in the order of time, and the rows of this trial's own samples among them; in all other rows
+    /// `measured` is NaN.
+    pub fn with_unmeasured(&self) -> (Cow<'_, Trial>, Vec<usize>) {
+        let own = self.samples();
+        let Some(lost) = &self.unmeasured else { return (Cow::Borrowed(self), (0..own).collect()) };
+        let time = |row: usize| if row < own { self.time[row] } else { lost.time[row - own] };
+        let mut order: Vec<usize> = (0..self.recorded()).collect();
+        order.sort_by(|a, b| time(*a).total_cmp(&time(*b)));
+        let join = |own_part: &DMatrix<f64>, lost_part: &DMatrix<f64>| {
+            let value = |row: usize, column: usize| if row < own { own_part[(row, column)] } else { lost_part[(row - own, column)] };
+            DMatrix::from_fn(order.len(), own_part.ncols(), |row, column| value(order[row], column))
+        };
+        let both = |a: &Option<DMatrix<f64>>, b: &Option<DMatrix<f64>>| Some(join(a.as_ref()?, b.as_ref()?));
+        let nothing = DMatrix::from_element(lost.samples(), self.measured.ncols(), f64::NAN);
+        let whole = Trial {
+            time: order.iter().map(|row| time(*row)).collect(),
+            actuators: join(&self.actuators, &lost.actuators),
+            context: join(&self.context, &lost.context),
+            measured: join(&self.measured, &nothing),
+            predicted: both(&self.predicted, &lost.predicted),
+            vehicle: both(&self.vehicle, &lost.vehicle),
+            unmeasured: None,
+            ..self.select(&[])
+        };
+        (Cow::Owned(whole), (0..order.len()).filter(|row| order[*row] < own).collect())
+    }
+
+    /// Returns the samples of `rows`, which are increasing, and those without an output that lead up to the first of them or lie
+    /// between them; what was left out before stays counted.
     pub fn select(&self, rows: &[usize]) -> Trial {
+        let lost = self.unmeasured.as_ref().zip(rows.first().zip(rows.last()));
+        let unmeasured = lost.and_then(|(lost, (first, last))| {
+            let from = first.checked_sub(1).map_or(f64::NEG_INFINITY, |before| self.time[before]);
+            let between = |row: &usize| from < lost.time[*row] && lost.time[*row] < self.time[*last];
+            Trial::some(lost.select(&(0..lost.samples()).filter(between).collect::<Vec<_>>()))
+        });
         Trial {
             name: self.name.clone(),
             role: self.role,
@@ -78,7 +122,13 @@ impl Trial {
             conditions: self.conditions.clone(),
             dropped: self.dropped.clone(),
             file: self.file.clone(),
+            unmeasured,
         }
+    }
+
+    /// Returns a trial of samples without an output, unless it has none.
+    pub(crate) fn some(lost: Trial) -> Option<Box<Trial>> {
+        (lost.samples() > 0).then(|| Box::new(lost))
     }
 }
 

@@ -82,7 +82,8 @@ fn predictions_stand_beside_the_recordings_and_nothing_else_changes() {
     let folder = folder();
     let done = predict(folder.path(), "out", LINEAR).success();
     let said = str::from_utf8(&done.get_output().stdout).unwrap().to_string();
-    assert!(said.contains("357 rows") && said.contains("acm-eval") && said.contains("close-loop out\n"), "{said}");
+    assert!(said.contains("360 rows") && said.contains("acm-eval") && said.contains("close-loop out
+"), "{said}");
     assert_eq!(fs::read_to_string(folder.path().join("header")).unwrap(), "time,q,load,payload\n");
     let read = |name: &str| Campaign::read(&folder.path().join(name), None).unwrap();
     let (before, after) = (read("set"), read("out"));
@@ -91,6 +92,8 @@ fn predictions_stand_beside_the_recordings_and_nothing_else_changes() {
         assert_eq!((&own.name, own.role, &own.time), (&new.name, new.role, &new.time));
         assert_eq!((&own.actuators, &own.context, &own.measured), (&new.actuators, &new.context, &new.measured));
         assert_eq!((&own.vehicle, &own.conditions), (&new.vehicle, &new.conditions));
+        let lost = |trial: &acm_datasets::Trial| trial.unmeasured.as_ref().map(|lost| (lost.time.clone(), lost.actuators.clone()));
+        assert_eq!(lost(own), lost(new), "{}", own.name);
         let predicted = new.predicted.as_ref().unwrap();
         for t in 0..own.samples() {
             let x = 1e-3 * (2.0 * own.actuators[(t, 0)].to_degrees() + 1.0);
@@ -114,7 +117,8 @@ fn each_trial_starts_the_program_anew() {
     predict(folder.path(), "out", &["awk", "NR > 1 { print NR - 1, 0 }"]).success();
     let read = Campaign::read(&folder.path().join("out"), None).unwrap();
     for trial in &read.trials {
-        let counted: Vec<f64> = trial.predicted.as_ref().unwrap().column(0).iter().map(|x| x * 1e3).collect();
+        let (whole, _) = trial.with_unmeasured();
+        let counted: Vec<f64> = whole.predicted.as_ref().unwrap().column(0).iter().map(|x| x * 1e3).collect();
         (1..).zip(&counted).for_each(|(k, x)| assert!((x - f64::from(k)).abs() < 1e-9, "{} {k}: {x}", trial.name));
     }
 }
@@ -123,9 +127,9 @@ fn each_trial_starts_the_program_anew() {
 fn what_is_no_answer_is_refused_with_its_place() {
     let folder = folder();
     let folder = folder.path();
-    refused(folder, 3, &["true"], &["trial `a 1`", "`true` answered 0 of 119 lines", "print one line for each"]);
+    refused(folder, 3, &["true"], &["trial `a 1`", "`true` answered 0 of 120 lines", "print one line for each"]);
     refused(folder, 3, &["cat"], &["trial `a 1`", "answered \"time,q,load,payload\" to line 1", "2 numbers"]);
-    refused(folder, 3, &["yes", "1 2"], &["answered more than the 119 lines", "no header"]);
+    refused(folder, 3, &["yes", "1 2"], &["answered more than the 120 lines", "no header"]);
     refused(folder, 3, &["awk", "NR > 1 { print 1, (NR == 9 ? \"nan\" : 2) }"], &["sample 8", "NaN", "finite"]);
     refused(folder, 3, &["awk", "NR > 1 { print 1 }"], &["answered \"1\" to line 1", "2 numbers"]);
     refused(folder, 3, &["awk", "NR > 1 { print 1, 2 } END { exit 7 }"], &["ended with exit status: 7"]);

@@ -124,7 +124,7 @@ fn lines(section: &Section) -> Vec<Line<'_>> {
     shown
         .filter_map(|estimator| {
             let (record, table) = section.median_seed(estimator)?;
-            Some(Line { estimator, table, max_gap: record.experiment.windows.max_gap })
+            Some(Line { estimator, table, max_gap: record.experiment.windows.gap() })
         })
         .collect()
 }

@@ -87,12 +87,13 @@ pub fn recordings(campaign: &Campaign, nominal: NominalSpec, own_prediction: boo
 }
 
 fn recorded(campaign: &Campaign, trial: &Trial, own_prediction: bool) -> Recorded {
+    let (whole, _) = trial.with_unmeasured();
     Recorded {
         name: trial.name.clone(),
         record: acm_datasets::rig::record(campaign, trial),
         lead: lead(campaign, trial),
-        measured: trial.measured.clone(),
-        predicted: trial.predicted.clone().filter(|_| own_prediction),
+        measured: whole.measured.clone(),
+        predicted: whole.predicted.clone().filter(|_| own_prediction),
         offset: None,
     }
 }

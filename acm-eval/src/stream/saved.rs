@@ -120,7 +120,7 @@ pub fn load(request: &Request) -> Result<Saved, EvalError> {
         actuators: scalers.actuators.clone(),
         interval,
         factor: record.factor,
-        max_gap: asked.max_gap,
+        max_gap: asked.gap(),
         first_elapsed: rig(&campaign, &used).step,
         state: if request.windows { StateRule::Window(asked.length) } else { StateRule::Running },
     };

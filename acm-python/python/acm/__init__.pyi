@@ -280,11 +280,11 @@ def effect(
 def read(folder: _Path, *, tables: _Path | None = None) -> Recordings:
     """Reads a folder with ``manifest.toml``, and checks everything."""
 
-def check(data: _Data, *, tables: _Path | None = None, window: int = 50, max_gap: float = 0.5) -> Text:
-    """What ``acm-data check`` says; ``window`` in samples, ``max_gap`` in s."""
+def check(data: _Data, *, tables: _Path | None = None, window: int = 50, max_gap: float | None = None) -> Text:
+    """What ``acm-data check`` says; ``window`` in samples, ``max_gap`` in s (default: five usual steps of the trial, at least 0.5 s)."""
 
-def describe(data: _Data, *, tables: _Path | None = None, max_gap: float = 0.5) -> Text:
-    """What ``acm-data describe`` prints; ``max_gap`` in s."""
+def describe(data: _Data, *, tables: _Path | None = None, max_gap: float | None = None) -> Text:
+    """What ``acm-data describe`` prints; ``max_gap`` as of :func:`check`."""
 
 def close_loop(
     data: _Data | None = None,

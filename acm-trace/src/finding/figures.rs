@@ -171,8 +171,11 @@ impl Sheet<'_> {
     /// Returns the trial with the largest fall in error.
     fn trace(&self) -> Trace {
         let o = self.output();
-        let power = |r: &DMatrix<f64>| r.norm_squared() / r.len().max(1) as f64;
-        let fall = |s: usize| power(&self.nominal[s]) - power(&self.after[s]);
+        let power = |s: usize, r: &DMatrix<f64>| {
+            let r = r.select_rows(&self.trials[s].measured_rows());
+            r.norm_squared() / r.len().max(1) as f64
+        };
+        let fall = |s: usize| power(s, &self.nominal[s]) - power(s, &self.after[s]);
         let s = (0..self.trials.len()).max_by(|&a, &b| fall(a).total_cmp(&fall(b))).unwrap_or(0);
         let trial = &self.trials[s];
         let stride = (self.prepared.case.rig.step.recip() / RATE).max(1.0) as usize;

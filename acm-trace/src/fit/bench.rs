@@ -47,6 +47,7 @@ pub fn series(record: Record, measured: Vec<f64>) -> Series {
         inter_sample: acm_core::InterSample::Straight,
         name: String::new(),
         rows: (0..samples).collect(),
+        is_led: false,
         thin: record.clone(),
         record,
         predicted: None,

@@ -40,7 +40,10 @@ pub fn residual(
     };
     let time = &trial.record.time;
     let warm = warm_up(time) - time[0];
-    let told = time.iter().take_while(|t| **t - time[0] < warm).count();
+    let mut told = time.iter().take_while(|t| **t - time[0] < warm).count();
+    if trial.measured_rows().first().is_none_or(|first| *first >= told) {
+        told = 0;
+    }
     let fades_in = warm.max(time[0] - led.time[0]);
     let lasting: Vec<Mode> = modes.iter().copied().filter(|mode| mode.memory > LASTS * fades_in).collect();
     let faded =

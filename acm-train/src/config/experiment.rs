@@ -184,8 +184,10 @@ pub struct Windows {
     pub stride: usize,
     /// Samples from one scored target to the next.
     pub evaluation_stride: usize,
-    /// A longer gap between samples ends a segment, s; no window crosses it.
-    pub max_gap: f64,
+    /// A longer gap between samples ends a segment, s; no window crosses it. Left out: five usual steps of the slowest trial that
+    /// is learned from or calibrates, and at least 0.5 s; a run notes the number.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub max_gap: Option<f64>,
     /// Steps of a window that are supervised.
     pub target: Target,
     /// Elapsed times that the network receives.
@@ -200,10 +202,17 @@ impl Default for Windows {
             reach: 50,
             stride: 1,
             evaluation_stride: 1,
-            max_gap: 0.5,
+            max_gap: None,
             target: Target::Last,
             elapsed: Elapsed::Measured,
         }
+    }
+}
+
+impl Windows {
+    /// Returns the longest step in time within a segment, s; before the data are known, what fast recordings have.
+    pub fn gap(&self) -> f64 {
+        acm_datasets::max_gap(self.max_gap, 0.0)
     }
 }
 

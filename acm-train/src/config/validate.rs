@@ -119,10 +119,10 @@ fn windows(experiment: &Experiment) -> Vec<Fault> {
         let help = "reach is the longest window among the models that are compared: at least windows.length";
         faults.push(Fault::new("windows.reach", what, help));
     }
-    if w.max_gap <= 0.0 {
+    if w.gap() <= 0.0 {
         faults.push(Fault::new(
             "windows.max_gap",
-            format!("is {} s", w.max_gap),
+            format!("is {} s", w.gap()),
             "write the longest gap between two samples of one sequence, in s, above 0",
         ));
     }

@@ -21,6 +21,8 @@ use acm_core::observations::Observations;
 use acm_datasets::{Campaign, DataError, Domain, DomainFilter, Entry, Manifest, Recordings, Role, Trial, folds};
 use nalgebra::DMatrix;
 
+use crate::config::Windows;
+
 /// Largest number of samples that a nominal model is calibrated on: of more, every k-th.
 pub const CALIBRATION_SAMPLES: usize = 1 << 17;
 
@@ -82,6 +84,15 @@ impl Trials {
         Ok(Self::Streamed(Arc::new(set), Arc::new(domain)))
     }
 
+    fn entries(&self, max_gap: Option<f64>) -> Result<Vec<Entry>, DataError> {
+        match self {
+            Self::Held(campaign) => Ok(campaign.entries(max_gap)),
+            Self::Streamed(set, _) => {
+                self.read(0..set.entries.len()).map(|trial| Ok(Entry::of(&*trial?, max_gap))).collect()
+            }
+        }
+    }
+
     fn description(&self) -> (&Manifest, &Path, &str) {
         match self {
             Self::Held(campaign) => (&campaign.manifest, &campaign.folder, &campaign.hash),
@@ -101,18 +112,19 @@ impl Trials {
 }
 
 impl Data {
-    /// Returns the trials with their list; a step in time over `max_gap` seconds is a gap.
+    /// Returns the trials with their list. Where `windows` does not say what a gap is, the trials that are learned from or calibrate
+    /// decide, and `windows` notes it.
     ///
     /// # Errors
     /// A trial that cannot be read.
-    pub fn new(trials: Trials, max_gap: f64) -> Result<Self, DataError> {
-        let entries = match &trials {
-            Trials::Held(campaign) => campaign.entries(max_gap),
-            Trials::Streamed(set, _) => trials
-                .read(0..set.entries.len())
-                .map(|trial| Ok::<_, DataError>(Entry::of(&*trial?, max_gap)))
-                .collect::<Result<_, _>>()?,
-        };
+    pub fn new(trials: Trials, windows: &mut Windows) -> Result<Self, DataError> {
+        let mut entries = trials.entries(windows.max_gap)?;
+        let learns = |entry: &&Entry| matches!(entry.role, Role::Calibration | Role::Development);
+        let gap = entries.iter().filter(learns).map(|entry| entry.max_gap).fold(windows.gap(), f64::max);
+        if entries.iter().any(|entry| entry.max_gap.to_bits() != gap.to_bits()) {
+            entries = trials.entries(Some(gap))?;
+        }
+        windows.max_gap = Some(gap);
         let (manifest, folder, hash) = trials.description();
         let (manifest, folder, hash) = (manifest.clone(), folder.to_path_buf(), hash.to_string());
         let pieces = (0..entries.len()).map(|trial| Piece { trial, block: None }).collect();
@@ -160,7 +172,7 @@ impl Data {
                 for number in 0..count {
                     let rows = number * trial.samples() / count..(number + 1) * trial.samples() / count;
                     let piece = Piece { trial: index, block: Some((folds::block(&trial.name, number), rows)) };
-                    entries.push(Entry::of(&piece.of(Cow::Borrowed(&trial)), max_gap));
+                    entries.push(Entry::of(&piece.of(Cow::Borrowed(&trial)), Some(max_gap)));
                     pieces.push(piece);
                 }
             }

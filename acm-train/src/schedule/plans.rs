@@ -76,7 +76,7 @@ pub fn folds(experiment: &Experiment, source: &Source, mut data: Data) -> Result
     let folds = made(experiment, source, &data, &learners, &held_out)?;
     if folds.by == By::Block {
         let cut = validating(&data, &learners).into_iter().map(|entry| entry.name.clone()).collect::<Vec<_>>();
-        data.cut(&cut, folds.validation.len(), experiment.windows.max_gap)?;
+        data.cut(&cut, folds.validation.len(), experiment.windows.gap())?;
     }
     let (learners, _) = parts(experiment, source, &data)?;
     refuse_unknown_trials(experiment, source, &learners, &folds)?;

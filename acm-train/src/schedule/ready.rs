@@ -94,7 +94,7 @@ impl Ready {
         calibrate: impl Fn(&Experiment, &Data, &[Plan], DataStamp) -> Result<NominalRecord, ScheduleError>,
     ) -> Result<Self, ScheduleError> {
         let trials = campaigns.trials(&mut experiment, source, request)?;
-        let data = Data::new(trials, experiment.windows.max_gap)?;
+        let data = Data::new(trials, &mut experiment.windows)?;
         let channels = channels(&mut experiment, source, &data.manifest, &data.entries)?;
         refuse_unknown_shuffles(&experiment, source)?;
         let (folds, data) = folds(&experiment, source, data)?;

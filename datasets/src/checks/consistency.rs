@@ -4,6 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::hash::{DefaultHasher, Hasher};
 use std::path::PathBuf;
 
+use acm_core::display::significant;
+
 use crate::entry::Entry;
 use crate::error::{DataError, short};
 use crate::manifest::{Manifest, Role};
@@ -152,13 +154,12 @@ pub(crate) fn recorded(manifest: &Manifest, trials: &[Entry], problems: &mut Vec
     }
 }
 
-/// Trials that learn or are scored and have no stretch of `window` samples without a gap over `max_gap` seconds, which
-/// is what `longest` was found for.
-pub(crate) fn windows(trials: &[Entry], window: usize, max_gap: f64) -> Vec<DataError> {
+/// Trials that learn or are scored and have no stretch of `window` samples without a gap.
+pub(crate) fn windows(trials: &[Entry], window: usize) -> Vec<DataError> {
     let used = trials.iter().filter(|t| matches!(t.role, Role::Development | Role::HeldOut));
     let short = used.filter(|t| t.samples >= LEAST_SAMPLES && t.longest < window);
-    let gap = format!(" without a gap over {max_gap} s");
-    short.map(|trial| few(trial, trial.longest, window, gap.clone(), " of a window")).collect()
+    let gap = |trial: &Entry| format!(" without a gap over {} s", significant(trial.max_gap, 4));
+    short.map(|trial| few(trial, trial.longest, window, gap(trial), " of a window")).collect()
 }
 
 fn few(trial: &Entry, samples: usize, needed: usize, gap: String, why: &'static str) -> DataError {

@@ -14,7 +14,7 @@ use nalgebra::DMatrix;
 use crate::checks::{periodic, suspect};
 use crate::ingest::layout::{Layout, Source};
 use crate::manifest::{Manifest, Role};
-use crate::preprocessing::segments::median_step;
+use crate::preprocessing::segments::usual_step;
 use crate::trial::Trial;
 use crate::units::{Dimension, Unit};
 
@@ -68,7 +68,7 @@ const LONGEST_PAUSE: f64 = 3600.0;
 pub(crate) struct Seen {
     trial: String,
     file: PathBuf,
-    excluded: bool,
+    role: Role,
     samples: usize,
     /// Least and greatest value of the actuators, the context signals, the outputs and the vehicle, in this order.
     ranges: Vec<(f64, f64)>,
@@ -89,15 +89,15 @@ impl Seen {
         let range = |column: &[f64]| {
             column.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(*v), high.max(*v)))
         };
-        let steps = trial.time.windows(2).map(|t| (t[1] - t[0], t[0], t[1]));
-        let whole = 0..trial.samples();
+        let time = &trial.with_unmeasured().0.time;
+        let steps = time.windows(2).map(|t| (t[1] - t[0], t[0], t[1]));
         Seen {
             trial: trial.name.clone(),
             file: trial.file.clone(),
-            excluded: trial.role == Role::Excluded,
+            role: trial.role,
             samples: trial.samples(),
             ranges: signals.map(|column| range(column.as_slice())).collect(),
-            step: median_step(&trial.time, std::slice::from_ref(&whole)),
+            step: usual_step(time),
             pause: steps.reduce(|a, b| if b.0 > a.0 { b } else { a }),
             typed_time,
             suspicions: if trial.role == Role::Excluded {
@@ -142,7 +142,7 @@ fn jumps(trial: &Trial, rows: &[usize], layout: &Layout) -> Vec<String> {
 /// Warnings for the signals of the trials. What is said of all of them together waits until they are `complete`.
 pub(crate) fn warnings(manifest: &Manifest, layout: &Layout, trials: &[Seen], complete: bool) -> Vec<String> {
     let read: Vec<&Seen> = trials.iter().filter(|t| t.samples > 0).collect();
-    let used: Vec<&Seen> = read.iter().copied().filter(|t| t.samples > 1 && !t.excluded).collect();
+    let used: Vec<&Seen> = read.iter().copied().filter(|t| t.samples > 1 && t.role != Role::Excluded).collect();
     let arm = manifest.arm.as_ref().map(|a| a.length.si()).filter(|_| manifest.has_markers());
     let (mut warnings, mut index) = (Vec::new(), 0);
     for (sources, part) in parts(layout) {
@@ -166,6 +166,7 @@ pub(crate) fn warnings(manifest: &Manifest, layout: &Layout, trials: &[Seen], co
     if let Some(arm) = arm {
         warnings.extend(read.iter().filter_map(|trial| far_too_near(&layout.measured, markers.clone(), arm, trial)));
     }
+    warnings.extend(unmoved(layout, &used).filter(|_| complete));
     warnings.extend(used.iter().filter_map(|trial| clock(layout, trial)));
     warnings.extend(used.iter().flat_map(|trial| trial.suspicions.iter().cloned()));
     warnings
@@ -271,6 +272,23 @@ fn constant(column: &Column, trials: &[&Seen]) -> Option<String> {
             trial.trial,
             number(first),
             column.source.unit.si_name(),
+        )
+    })
+}
+
+/// Development trials in which no input moves show no effect.
+fn unmoved(layout: &Layout, trials: &[&Seen]) -> Option<String> {
+    let inputs = layout.actuators.len() + layout.context.len();
+    let rests = |trial: &&Seen| trial.ranges.iter().take(inputs).all(|(low, high)| low == high);
+    let moving = trials.iter().filter(|trial| !rests(trial)).count();
+    let mut developing = trials.iter().filter(|trial| trial.role == Role::Development);
+    let first = developing.clone().next().filter(|_| !layout.actuators.is_empty() && moving > 0)?;
+    developing.all(|trial| rests(trial)).then(|| {
+        format!(
+            "{}: no development trial moves an actuator (the first is `{}`), and only motion shows an effect; in [roles], name trials \
+             under `development` in which actuators move",
+            first.file.display(),
+            first.trial
         )
     })
 }

@@ -16,6 +16,7 @@ fn trials(signals: &[(&str, f64, &[f64])]) -> (Manifest, Vec<Entry>) {
         role: Role::Development,
         samples: 100,
         longest: 100,
+        max_gap: 0.5,
         levels: signals.iter().map(|(_, sd, means)| Level { mean: means[trial], variance: sd * sd }).collect(),
         conditions: BTreeMap::new(),
         dropped: BTreeMap::new(),

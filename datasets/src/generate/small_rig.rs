@@ -58,6 +58,7 @@ fn trial(trial: &SimTrial) -> Trial {
         conditions: BTreeMap::new(),
         dropped: BTreeMap::new(),
         file: TABLE.into(),
+        unmeasured: None,
     }
 }
 

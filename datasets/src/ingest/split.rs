@@ -71,24 +71,30 @@ pub(crate) fn trial(
     if recording.spoiled || problems.len() > before {
         return None;
     }
-    let (kept, dropped) = present(recording, rows, layout);
-    let rows: Vec<usize> = kept.iter().map(|i| rows[*i]).collect();
-    let read = |sources: &[Source]| matrix(recording, &rows, sources);
-    let optional = |sources: &[Source]| (!sources.is_empty()).then(|| read(sources));
-    let trial = Trial {
-        name,
-        role: Role::Excluded,
-        time: kept.iter().map(|i| time[*i]).collect(),
-        actuators: read(&layout.actuators),
-        context: read(&layout.context),
-        measured: read(&layout.measured),
-        predicted: optional(&layout.predicted),
-        vehicle: optional(&layout.vehicle),
-        conditions: BTreeMap::new(),
-        dropped,
-        file: file.to_path_buf(),
+    let Present { kept, mut unmeasured, dropped } = present(recording, rows, layout);
+    let last = kept.last().copied().unwrap_or(0); // nothing follows it that could remember
+    unmeasured.retain(|i| *i < last);
+    let of = |kept: &[usize], measured: &[Source]| {
+        let rows: Vec<usize> = kept.iter().map(|i| rows[*i]).collect();
+        let read = |sources: &[Source]| matrix(recording, &rows, sources);
+        let optional = |sources: &[Source]| (!sources.is_empty()).then(|| read(sources));
+        Trial {
+            name: name.clone(),
+            role: Role::Excluded,
+            time: kept.iter().map(|i| time[*i]).collect(),
+            actuators: read(&layout.actuators),
+            context: read(&layout.context),
+            measured: read(measured),
+            predicted: optional(&layout.predicted),
+            vehicle: optional(&layout.vehicle),
+            conditions: BTreeMap::new(),
+            dropped: BTreeMap::new(),
+            file: file.to_path_buf(),
+            unmeasured: None,
+        }
     };
-    Some(Whole { trial, rows: rows.iter().map(|row| recording.row(*row)).collect() })
+    let trial = Trial { dropped, unmeasured: Trial::some(of(&unmeasured, &[])), ..of(&kept, &layout.measured) };
+    Some(Whole { trial, rows: kept.iter().map(|i| recording.row(rows[*i])).collect() })
 }
 
 /// The recording with angles and counters of these rows unwrapped, the signs of quaternions kept, and inputs filled.
@@ -144,8 +150,18 @@ fn matrix(recording: &Recording, rows: &[usize], sources: &[Source]) -> DMatrix<
     matrix
 }
 
-/// The samples that have all their cells, and how many have not.
-fn present(recording: &Recording, rows: &[usize], layout: &Layout) -> (Vec<usize>, BTreeMap<DropReason, usize>) {
+/// Samples by the cells that they have.
+#[derive(Default)]
+struct Present {
+    /// Those with all cells.
+    kept: Vec<usize>,
+    /// Those that lack nothing but an output.
+    unmeasured: Vec<usize>,
+    /// Number of those that lack a cell, by reason.
+    dropped: BTreeMap<DropReason, usize>,
+}
+
+fn present(recording: &Recording, rows: &[usize], layout: &Layout) -> Present {
     let columns = |sources: &[Source]| -> Vec<&Vec<f64>> {
         sources.iter().filter_map(|s| recording.numbers.get(&s.column)).collect()
     };
@@ -155,19 +171,24 @@ fn present(recording: &Recording, rows: &[usize], layout: &Layout) -> (Vec<usize
         false => Vec::new(),
     };
     let lost = |columns: &[&Vec<f64>], row: usize| columns.iter().any(|c| c[row].is_nan());
-    let (mut kept, mut dropped) = (Vec::with_capacity(rows.len()), BTreeMap::new());
+    let mut found = Present::default();
     for (i, row) in rows.iter().enumerate() {
-        if lost(&measured, *row) {
-            *dropped.entry(DropReason::MissingMarker).or_insert(0) += 1;
-        } else if lost(&vehicle, *row) {
-            *dropped.entry(DropReason::MissingVehicle).or_insert(0) += 1;
-        } else if lost(&inputs, *row) {
-            *dropped.entry(DropReason::MissingSource).or_insert(0) += 1;
-        } else {
-            kept.push(i);
+        let reason = match () {
+            () if lost(&inputs, *row) => DropReason::MissingSource,
+            // its acceleration is an input of effects
+            () if lost(&vehicle, *row) => DropReason::MissingVehicle,
+            () if lost(&measured, *row) => DropReason::MissingMarker,
+            () => {
+                found.kept.push(i);
+                continue;
+            }
+        };
+        *found.dropped.entry(reason).or_insert(0) += 1;
+        if reason == DropReason::MissingMarker {
+            found.unmeasured.push(i);
         }
     }
-    (kept, dropped)
+    found
 }
 
 /// Checks that time increases from row to row.

@@ -11,9 +11,7 @@ use crate::ingest::layout::JOINED_TIME;
 use crate::ingest::periodic::align_signs;
 use crate::ingest::recording::Recording;
 use crate::manifest::Source;
-
-/// Steps of a source that are no gap, where the manifest does not say it.
-const GAP_STEPS: f64 = 5.0;
+use crate::preprocessing::segments::GAP_STEPS;
 
 impl Plan {
     /// The samples of a trial; none where its clocks could not be brought together.

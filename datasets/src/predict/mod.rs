@@ -48,10 +48,12 @@ pub fn write<'a>(
     let (mut known, mut samples) = (Vec::new(), 0);
     let groups = trials.map(|trial| {
         let trial = trial?;
-        let predicted = in_si(model(&Given::of(manifest, &trial))?, &trial, &units)?;
-        samples += trial.samples();
+        // a model may remember the inputs of samples without an output
+        let (whole, _) = trial.with_unmeasured();
+        let predicted = in_si(model(&Given::of(manifest, &whole))?, &whole, &units)?;
+        samples += whole.samples();
         known.push(trial.select(&[]));
-        Ok(set::columns(manifest, &trial, &predicted))
+        Ok(set::columns(manifest, &whole, &predicted))
     });
     write_parquet_groups(&out.join(TABLE), groups)?;
     written::write(&set::manifest(manifest, &known, by), out, HEAD)?;

@@ -121,6 +121,7 @@ impl Domain {
         let inside = |t: &usize| self.contains(&trial.actuators.row(*t).iter().copied().collect::<Vec<_>>());
         let rows: Vec<usize> = (0..trial.samples()).filter(inside).collect();
         let mut kept = trial.select(&rows);
+        kept.unmeasured = kept.unmeasured.and_then(|lost| Trial::some(self.keep(&lost)));
         if rows.len() < trial.samples() {
             *kept.dropped.entry(DropReason::OutsideDomain).or_insert(0) += trial.samples() - rows.len();
         }

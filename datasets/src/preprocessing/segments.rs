@@ -1,6 +1,23 @@
 //! Runs of samples without a gap, and the step within them.
+//!
+//! ```text
+//! gap:  Δt > Δt_max,   Δt_max as given, or max(0.5 s, 5 · usual step)
+//! ```
 
 use std::ops::Range;
+
+/// Number of usual steps that a gap exceeds.
+pub(crate) const GAP_STEPS: f64 = 5.0;
+
+/// A step in time up to this one is no gap, s.
+const SHORTEST_GAP: f64 = 0.5;
+
+/// Returns the longest step in time that is no gap, s: as given, or else from the usual step of the samples, s.
+pub fn max_gap(given: Option<f64>, usual_step: f64) -> f64 {
+    let steps = GAP_STEPS * usual_step;
+    // time stamps are rounded
+    given.unwrap_or(if steps > SHORTEST_GAP * (1.0 + 1e-6) { steps } else { SHORTEST_GAP })
+}
 
 /// Runs of samples whose steps are at most `max_gap` (a billionth longer, for rounding of time stamps).
 pub fn segments(time: &[f64], max_gap: f64) -> Vec<Range<usize>> {
@@ -14,6 +31,11 @@ pub fn segments(time: &[f64], max_gap: f64) -> Vec<Range<usize>> {
         }
     }
     segments
+}
+
+/// Returns the median of all steps, s; 0 of fewer than two samples.
+pub fn usual_step(time: &[f64]) -> f64 {
+    median_step(time, std::slice::from_ref(&(0..time.len())))
 }
 
 /// Median step within segments, s; 0 where no segment has two samples. Of an even number, the lower middle one.
@@ -38,6 +60,14 @@ mod tests {
         let parts = segments(&time, 2.0);
         assert_eq!(parts, [0..3, 3..6]);
         assert_eq!(median_step(&time, &parts), 1.0);
+    }
+
+    /// Oracle: by hand.
+    #[test]
+    fn a_gap_exceeds_five_usual_steps_and_half_a_second() {
+        assert_eq!([0.02, 0.1 + 1e-9, 0.0].map(|step| max_gap(None, step)), [0.5; 3]);
+        assert_eq!(max_gap(None, usual_step(&[0.0, 1.0, 2.0, 9.0])), 5.0);
+        assert_eq!(max_gap(Some(0.3), 1.0), 0.3);
     }
 
     #[test]

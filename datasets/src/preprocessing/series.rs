@@ -7,6 +7,7 @@
 //!
 //! The first sample of a segment has no predecessor; its elapsed time is the median step of the trial.
 
+use std::borrow::Cow;
 use std::ops::Range;
 
 use nalgebra::DMatrix;
@@ -26,11 +27,11 @@ pub struct Series {
     pub elapsed: Vec<f64>,
     /// `[T×C]`.
     pub inputs: DMatrix<f64>,
-    /// `[T×O]`, measured − nominal.
+    /// `[T×O]`, measured − nominal; a row of NaN where no output was measured.
     pub target: DMatrix<f64>,
     /// `[T×O]`.
     pub nominal: DMatrix<f64>,
-    /// `[T×O]`.
+    /// `[T×O]`; a row of NaN where no output was measured.
     pub measured: DMatrix<f64>,
     /// Runs of samples without a gap.
     pub segments: Vec<Range<usize>>,
@@ -38,13 +39,30 @@ pub struct Series {
     pub slopes: DMatrix<f64>,
 }
 
-/// The series of a trial.
+impl Series {
+    /// Returns whether the outputs of a sample were measured.
+    pub fn is_measured(&self, sample: usize) -> bool {
+        self.measured.row(sample).iter().all(|value| !value.is_nan())
+    }
+
+    /// Returns the targets of all samples that were measured, `[N×O]`.
+    pub fn targets(&self) -> Cow<'_, DMatrix<f64>> {
+        let measured: Vec<usize> = (0..self.time.len()).filter(|sample| self.is_measured(*sample)).collect();
+        match measured.len() == self.time.len() {
+            true => Cow::Borrowed(&self.target),
+            false => Cow::Owned(self.target.select_rows(&measured)),
+        }
+    }
+}
+
+/// The series of a trial with all its samples ([`Trial::with_unmeasured`]).
 ///
 /// `nominal` is `[T×O]` at the reported outputs `tip`; `max_gap` is in s.
 ///
 /// # Panics
-/// If `nominal` has not one row per sample and one column per output of `tip`.
+/// If samples without an output are apart, or `nominal` has not one row per sample and one column per output of `tip`.
 pub fn series(trial: &Trial, nominal: DMatrix<f64>, tip: Range<usize>, channels: &[Channel], max_gap: f64) -> Series {
+    assert!(trial.unmeasured.is_none(), "trial {} without some of its inputs", trial.name);
     assert_eq!(nominal.shape(), (trial.samples(), tip.len()), "nominal prediction of trial {}", trial.name);
     let segments = segments(&trial.time, max_gap);
     let elapsed = elapsed(&trial.time, &segments);

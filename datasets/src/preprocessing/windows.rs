@@ -1,7 +1,7 @@
 //! Windows: runs of consecutive samples that end at a target. Views by index; nothing is copied.
 //!
 //! ```text
-//! targets of a segment:  start + reach − 1 + j · stride,   j = 0, 1, …
+//! targets of a segment:  start + reach − 1 + j · stride,   j = 0, 1, …      j counts samples whose output was measured
 //! a window's samples:    end − length + 1 ..= end
 //! ```
 //!
@@ -46,16 +46,17 @@ impl Window {
 /// # Panics
 /// If `length` or `stride` is 0 or `reach < length`: experiment files are validated before.
 pub fn windows(series: &[Series], spec: &WindowSpec) -> Vec<Window> {
-    series.iter().enumerate().flat_map(|(index, one)| windows_of(index, &one.segments, spec)).collect()
+    series.iter().enumerate().flat_map(|(index, one)| windows_of(index, one, spec)).collect()
 }
 
-/// The windows of the series with index `series`, which has these segments, by time.
+/// The windows of a series, whose index is `index`, by time.
 ///
 /// # Panics
 /// As [`windows`].
-pub fn windows_of(series: usize, segments: &[Range<usize>], spec: &WindowSpec) -> impl Iterator<Item = Window> {
+pub fn windows_of<'s>(index: usize, series: &'s Series, spec: &WindowSpec) -> impl Iterator<Item = Window> + use<'s> {
     let WindowSpec { length, reach, stride } = *spec;
     assert!(length >= 1 && stride >= 1 && reach >= length, "{spec:?}");
-    let targets = move |segment: &Range<usize>| (segment.start + reach - 1..segment.end).step_by(stride);
-    segments.iter().flat_map(targets).map(move |end| Window { series, end })
+    let reached = move |segment: &Range<usize>| segment.start + reach - 1..segment.end;
+    let targets = move |segment| reached(segment).filter(|end| series.is_measured(*end)).step_by(stride);
+    series.segments.iter().flat_map(targets).map(move |end| Window { series: index, end })
 }

@@ -95,7 +95,7 @@ impl Recordings {
         }
         consistency::folds(manifest, source, &self.entries, &mut problems);
         if let Some(length) = options.window {
-            problems.extend(consistency::windows(&self.entries, length, options.max_gap));
+            problems.extend(consistency::windows(&self.entries, length));
             if !problems.is_empty() {
                 // A check tells everything at once; what is only suspicious comes after what is wrong.
                 problems.extend(self.warnings.drain(..).map(DataError::Warning));
@@ -215,7 +215,7 @@ impl Recordings {
         part: &mut Part,
     ) {
         (options.progress)(whole.samples());
-        let held = samples.fetch_add(whole.samples(), Ordering::Relaxed) + whole.samples() <= options.hold;
+        let held = samples.fetch_add(whole.recorded(), Ordering::Relaxed) + whole.recorded() <= options.hold;
         part.wholes.push(Whole::of(&whole));
         let place = Place { file, pieces };
         let mut rows = rows.as_slice();

@@ -111,7 +111,7 @@ impl<'a> Reading<'a> {
             let wanted = parts.into_iter().filter(|part| part.name == now || self.waiting.contains(part.name.as_str()));
             self.ready.extend(wanted.map(|part| (part.name.clone(), part)));
         }
-        if self.ready.values().map(Trial::samples).sum::<usize>() > AHEAD {
+        if self.ready.values().map(Trial::recorded).sum::<usize>() > AHEAD {
             self.ready.retain(|name, _| name == now);
         }
     }

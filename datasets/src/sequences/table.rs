@@ -150,7 +150,8 @@ pub fn read(tables: &Tables, folder: &Path, rules: Rules) -> Result<SequenceSet,
         let Some(mut numbers) = column(&tables.sequence, &wanted(tables)) else { continue };
         if let (Some(ticks), Some(time)) = (&numbers.ticks, &tables.time) {
             let seconds = ticks.seconds(&(0..numbers.rows).collect::<Vec<_>>());
-            numbers.numbers.insert(time.clone(), seconds);
+            let unit = tables.unit_of_time().map_or(1.0, |unit| unit.factor()); // it is converted with the others
+            numbers.numbers.insert(time.clone(), seconds.iter().map(|time| time / unit).collect());
         }
         let parts = match &tables.part {
             None => None,

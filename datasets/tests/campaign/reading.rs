@@ -89,9 +89,9 @@ fn time_comes_from_a_rate_or_from_sample_numbers() {
     assert_eq!((trial.time[0], trial.time[1], trial.time[59]), (0.0, 2.0, 118.0));
 }
 
-/// An empty measured cell is a lost marker: the sample is skipped and counted, and time goes on.
+/// An empty measured cell is a lost marker: the sample is counted and not compared, and its inputs stay. Oracle: the rows of the set.
 #[test]
-fn lost_markers_are_skipped_and_counted() {
+fn lost_markers_are_counted_and_their_inputs_stay() {
     let mut text = set::csv(&set::rows(1));
     for t in [3, 4, 10] {
         let line = text.lines().nth(t + 1).expect("line").to_string();
@@ -106,6 +106,20 @@ fn lost_markers_are_skipped_and_counted() {
     assert_eq!(trial.dropped.get(&DropReason::MissingMarker), Some(&3));
     assert_eq!(&trial.time[1..5], [0.1, 0.2, 0.5, 0.6]);
     assert_eq!(trial.measured[(3, 0)], set::rows(1)[5][3] / 1000.0);
+    let (whole, own) = trial.with_unmeasured();
+    assert_eq!((whole.samples(), own.len(), own[3]), (60, 57, 5));
+    for (t, row) in set::rows(1).iter().enumerate() {
+        assert!((whole.time[t] - row[0] / 1000.0).abs() < 1e-12 && (whole.actuators[(t, 0)].to_degrees() - row[1]).abs() < 1e-9);
+        assert_eq!(whole.measured[(t, 0)].is_nan(), [3, 4, 10].contains(&t), "{t}");
+    }
+    // what leads up to a part stays with it, and the end has no use
+    let part = |rows: std::ops::Range<usize>| trial.select(&rows.collect::<Vec<_>>()).with_unmeasured().0.into_owned().time;
+    assert_eq!((part(0..3).len(), part(3..8).len(), part(8..57).len()), (3, 7, 50));
+    let entry = acm_datasets::Entry::of(trial, Some(0.15));
+    assert_eq!((entry.samples, entry.longest), (57, 60), "no gap in time");
+    set.write("run_b.csv", &text.lines().take(12).map(|line| line.to_string() + "\n").collect::<String>());
+    let last = set.campaign().trial("b").expect("b").clone();
+    assert_eq!((last.samples(), last.recorded()), (8, 10), "the last of eleven samples has no output");
 }
 
 /// A spreadsheet's file: byte-order mark, CRLF, quotes, blanks, columns that nobody asked for, and a last line open.

@@ -47,6 +47,20 @@ fn windows_of_the_paper() {
     assert!(windows(&[whole], &WindowSpec { length: 201, reach: 201, stride: 1 }).is_empty());
 }
 
+/// Oracle: by hand. Of 20 samples, 3–5 and 9 lack their output: windows of 4 hold their inputs and end at the others.
+#[test]
+fn windows_hold_samples_without_an_output_and_end_at_none() {
+    let mut whole = one((0..20).map(|k| f64::from(k) * 0.1).collect(), 0.5);
+    [3, 4, 5, 9].into_iter().for_each(|lost| whole.measured[(lost, 0)] = f64::NAN);
+    let ends = |stride| {
+        let found = windows(std::slice::from_ref(&whole), &WindowSpec { length: 4, reach: 4, stride });
+        found.iter().map(|window| window.end).collect::<Vec<_>>()
+    };
+    assert_eq!(ends(1)[..4], [6, 7, 8, 10]);
+    assert_eq!(ends(3), [6, 10, 13, 16, 19]);
+    assert_eq!(whole.targets().nrows(), 16);
+}
+
 /// A model with a window of 1 and one of 50 are scored at the same targets, in the same order.
 #[test]
 fn all_models_have_the_same_targets() {

@@ -144,7 +144,7 @@ const TOLD: usize = 400;
 /// data.
 fn past<'a>(plain: &'a Problem, state: &State, model: &'a AugmentedModel, s: usize) -> Option<Past<'a>> {
     let (series, kept, width) = (&plain.series[s], &plain.kept[s], plain.outputs());
-    if series.rows.first() != Some(&0) || series.predicted.is_some() || kept.is_empty() {
+    if series.is_led || series.predicted.is_some() || kept.is_empty() {
         return None;
     }
     let tells: Vec<usize> = kept.iter().copied().step_by(kept.len().div_ceil(TOLD)).collect();

@@ -55,12 +55,12 @@ impl Scalers {
         let (mut inputs, mut targets) = (Means::default(), Means::default());
         training(&mut |series| {
             inputs.add(&series.inputs);
-            targets.add(&series.target);
+            targets.add(&series.targets());
         })?;
         let (mut inputs, mut targets, mut sloped) = (inputs.spreads(), targets.spreads(), false);
         training(&mut |series| {
             inputs.add(&series.inputs);
-            targets.add(&series.target);
+            targets.add(&series.targets());
             sloped |= series.slopes.ncols() > 0;
         })?;
         let (inputs, targets, mut slopes) = (inputs.standardizer(), targets.standardizer(), SlopeSums::default());
@@ -89,6 +89,8 @@ struct Columns {
     targets: Vec<f32>,
     /// Slopes [T×O×A]; empty where the tip alone is corrected.
     slopes: Vec<f32>,
+    /// Samples without an output.
+    unmeasured: Vec<usize>,
 }
 
 impl WindowSet {
@@ -157,7 +159,22 @@ impl WindowSet {
             targets.extend_from_slice(&columns.targets[(end - supervised) * outputs..end * outputs]);
             slopes.extend_from_slice(&columns.slopes[(end - supervised) * sloped..end * sloped]);
         }
+        self.count(chosen, supervised, &mut batch.counted);
         (batch.steps, batch.supervise, batch.widths) = (self.length, supervise, widths);
+    }
+
+    /// Marks the targets that count: a window may hold samples without an output, but for its last.
+    fn count(&self, chosen: &[usize], supervised: usize, counted: &mut Vec<bool>) {
+        counted.clear();
+        if self.columns.iter().all(|columns| columns.unmeasured.is_empty()) {
+            return;
+        }
+        for window in chosen.iter().map(|&index| self.windows[index]) {
+            let lost = &self.columns[window.series].unmeasured;
+            for row in window.end + 1 - supervised..=window.end {
+                counted.extend(std::iter::repeat_n(lost.binary_search(&row).is_err(), self.outputs()));
+            }
+        }
     }
 
     /// Converts standardised predictions, row after row, to residuals in their own unit: [N×O].
@@ -229,6 +246,7 @@ impl Columns {
             elapsed: series.elapsed.iter().map(|&seconds| seconds as f32).collect(),
             targets: by_rows(&scalers.targets.standardize(&series.target)),
             slopes: correction::standardised(series, &scalers.targets, &scalers.actuators),
+            unmeasured: (0..series.time.len()).filter(|sample| !series.is_measured(*sample)).collect(),
         }
     }
 }
@@ -241,4 +259,37 @@ pub(super) fn single(values: &[f64]) -> Vec<f32> {
 /// Returns the rows, one after the other.
 pub(super) fn by_rows(values: &DMatrix<f64>) -> Vec<f32> {
     values.row_iter().flat_map(|row| row.iter().map(|&value| value as f32).collect::<Vec<_>>()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Oracle: by hand. Sample 2 of 4 lacks its output, so that of a window over all the other three count; a window over whole samples
+    /// has no mask.
+    #[test]
+    fn samples_without_an_output_do_not_count() {
+        let numbers = |values: [f64; 4]| DMatrix::from_column_slice(4, 1, &values);
+        let lost = numbers([0.0, 1.0, f64::NAN, 3.0]);
+        let series = Series {
+            trial: "a".into(),
+            time: vec![0.0, 0.1, 0.2, 0.3],
+            elapsed: vec![0.1; 4],
+            inputs: numbers([1.0, 2.0, 3.0, 4.0]),
+            target: lost.clone(),
+            nominal: numbers([0.0; 4]),
+            measured: lost,
+            segments: vec![0..4],
+            slopes: DMatrix::zeros(4, 0),
+        };
+        let scalers = Scalers::of(std::slice::from_ref(&series));
+        assert!((scalers.targets.mean[0] - 4.0 / 3.0).abs() < 1e-15 && scalers.inputs.mean == [2.5]);
+        let (whole, mut batch) = (Window { series: 0, end: 3 }, Batch::default());
+        let set = WindowSet::new(std::slice::from_ref(&series), vec![whole], 4, &scalers);
+        set.gather(&[0], Keep::Every, &mut batch);
+        assert_eq!((batch.counted.as_slice(), batch.inputs.len()), ([true, true, false, true].as_slice(), 4));
+        assert!(batch.error(&[0.0; 4]).0.is_finite());
+        set.gather(&[0], Keep::Last, &mut batch);
+        assert_eq!(batch.counted, [true]);
+    }
 }

@@ -4,6 +4,7 @@
 
 use std::{collections::BTreeMap, ops::Range};
 
+use acm_core::display::significant;
 use acm_datasets::{
     Campaign, Channel, DropReason, Entry, Manifest, Role, Series, Trial, default_channels, domain_filter,
     levels::{self, Constant},
@@ -55,9 +56,10 @@ impl Part {
         channels: &[Channel],
         experiment: &Experiment,
     ) {
-        let (nominal, polynomial) = predict(pair, trial);
+        let (trial, _) = trial.with_unmeasured(); // windows hold the inputs of samples without an output
+        let (nominal, polynomial) = predict(pair, &trial);
         let nominal = nominal.columns_range(tip.clone()).into_owned();
-        let mut series = series(trial, nominal, tip.clone(), channels, experiment.windows.max_gap);
+        let mut series = series(&trial, nominal, tip.clone(), channels, experiment.windows.gap());
         if experiment.network.corrects_actuators()
             && let Some(slopes) = pair.arm().and_then(|arm| arm.actuator_slopes(&trial.actuators))
         {
@@ -146,9 +148,11 @@ pub fn refuse_long_windows(
             let samples = trials().map(|trial| trial.longest).max().unwrap_or(0);
             if samples < asked.reach {
                 let what = format!(
-                    "`windows.reach` is {}, and the longest stretch of the {part} trials ({}) has {samples} samples",
+                    "`windows.reach` is {}, and the longest stretch of the {part} trials ({}) has {samples} samples without a gap over {} \
+                     s",
                     asked.reach,
-                    names::some(names, ", ")
+                    names::some(names, ", "),
+                    significant(asked.gap(), 4)
                 );
                 let left_out = |trial: &&Entry| trial.dropped.get(&DropReason::OutsideDomain).copied();
                 let outside: usize = trials().filter_map(left_out).sum();

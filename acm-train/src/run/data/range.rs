@@ -41,7 +41,7 @@ pub fn warnings(
         plans.iter().map(|plan| (plan.split.training.as_slice(), plan.split.held_out.as_slice())).collect();
     let seen: Vec<&Channel> =
         channels.iter().filter(|channel| !experiment.inputs.shuffled.contains(&channel.name)).collect();
-    let max_gap = experiment.windows.max_gap;
+    let max_gap = experiment.windows.gap();
     let ranges = ranges(data, &splits, &seen, max_gap)?;
     for (training, held_out) in splits {
         let learned: Ranges = (0..seen.len()).map(|c| union(training, &ranges, c)).collect();
@@ -50,7 +50,7 @@ pub fn warnings(
             let trial = trial?;
             for ((channel, learned), far) in seen.iter().zip(&learned).zip(&mut far) {
                 let Some((low, high)) = learned.filter(|(low, high)| low < high) else { continue };
-                far.extend(far_outside(&trial, &channel.of(&trial, max_gap), low, high));
+                far.extend(far_outside(&trial, &channel.of(&trial.with_unmeasured().0, max_gap), low, high));
             }
         }
         for ((channel, learned), far) in seen.iter().zip(learned).zip(far) {
@@ -75,7 +75,10 @@ fn ranges(
 ) -> Result<BTreeMap<String, Ranges>, DataError> {
     let names: BTreeSet<&String> = splits.iter().flat_map(|(training, _)| *training).collect();
     let names: Vec<String> = names.into_iter().cloned().collect();
-    let of = |trial: &Trial| channels.iter().map(|channel| range(&channel.of(trial, max_gap))).collect();
+    let of = |trial: &Trial| {
+        let (whole, _) = trial.with_unmeasured();
+        channels.iter().map(|channel| range(&channel.of(&whole, max_gap))).collect()
+    };
     data.trials(&names).map(|trial| trial.map(|trial| (trial.name.clone(), of(&trial)))).collect()
 }
 

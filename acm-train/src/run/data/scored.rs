@@ -69,10 +69,11 @@ impl<'a> Scored<'a> {
         let mut constant: Option<Vec<Option<f64>>> = None;
         self.each(&mut |series| {
             let first = windows.len();
-            windows.extend(windows_of(counts.len(), &series.segments, &spec));
+            windows.extend(windows_of(counts.len(), series, &spec));
             residuals.add(&series.target.select_rows(windows[first..].iter().map(|window| &window.end)));
             counts.push(windows.len() - first);
-            if let Some(samples) = (series.target.nrows() > 0).then_some(&series.target) {
+            let targets = series.targets();
+            if let Some(samples) = (targets.nrows() > 0).then_some(&*targets) {
                 let seen = constant.get_or_insert_with(|| samples.row(0).iter().map(|first| Some(*first)).collect());
                 for (seen, column) in seen.iter_mut().zip(samples.column_iter()) {
                     *seen = seen.filter(|first| column.iter().all(|value| value == first));

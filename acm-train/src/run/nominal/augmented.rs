@@ -75,12 +75,19 @@ pub fn read(file: &Path) -> Result<AugmentedModel, RunError> {
 }
 
 fn with_prediction(model: &AugmentedModel, campaign: &Campaign, trial: &Trial, file: &Path) -> Result<Trial, RunError> {
-    let predicted = model.predict(&record(campaign, trial), trial.predicted.as_ref());
+    let (whole, rows) = trial.with_unmeasured();
+    let predicted = model.predict(&record(campaign, trial), whole.predicted.as_ref());
     if let Some(value) = predicted.iter().find(|value| !value.is_finite()) {
         return Err(RunError::Unusable {
             what: format!("{} predicts {value} in trial {}", file.display(), trial.name),
             help: "the model was fitted to other motions than these: exclude the trial, or fit it again".into(),
         });
     }
-    Ok(Trial { predicted: Some(predicted), ..trial.clone() })
+    let mut trial = trial.clone();
+    if let Some(lost) = &mut trial.unmeasured {
+        let others: Vec<usize> = (0..whole.samples()).filter(|row| rows.binary_search(row).is_err()).collect();
+        lost.predicted = Some(predicted.select_rows(&others));
+    }
+    trial.predicted = Some(predicted.select_rows(&rows));
+    Ok(trial)
 }

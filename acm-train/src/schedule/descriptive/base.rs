@@ -46,7 +46,7 @@ impl Base {
         }
         let (mut experiment, source) = config::read(&file, &[])?;
         let campaign = Campaigns::default().of(&mut experiment, &source, request)?;
-        let listed = Data::new(Trials::Held(campaign.clone()), experiment.windows.max_gap)?;
+        let listed = Data::new(Trials::Held(campaign.clone()), &mut experiment.windows)?;
         let data = stamp(&listed, floors::read(&campaign.folder)?);
         Ok(Self { experiment, source, campaign, data })
     }
@@ -64,7 +64,7 @@ impl Base {
     pub fn calibrated(&self) -> Result<(CalibrationPair, NominalSource), ScheduleError> {
         let choice = choose(&self.experiment.nominal, &self.source, &self.campaign.manifest)?;
         let learners = self.experiment.inputs.learn_from.iter().flat_map(|role| self.names(*role)).collect();
-        let data = Data::new(Trials::Held(self.campaign.clone()), self.experiment.windows.max_gap)?;
+        let data = Data::new(Trials::Held(self.campaign.clone()), &mut self.experiment.windows.clone())?;
         let split = Split { training: learners, validation: vec![], held_out: vec![] };
         let folds = FoldStamp { made: "none".into(), count: 0, fold: 0, value_of: None };
         let all = Plan { id: "all".into(), stage: Stage::Final, seed: 0, folds, split };

@@ -78,6 +78,7 @@ fn trial(made: &UndeclaredTrial) -> Trial {
         conditions: made.payload.map(|mass| ("payload".to_string(), mass)).into_iter().collect(),
         dropped: BTreeMap::new(),
         file: store::TABLE.into(),
+        unmeasured: None,
     }
 }
 

@@ -141,7 +141,10 @@ fn left_range(signal: &Signal, columns: Vec<&Vec<f64>>) -> Option<String> {
 /// Returns the origin of the data that a model was fitted to, with its error there.
 pub fn origin(model: &AugmentedModel, campaign: &Campaign) -> Origin {
     let trials = compared(campaign);
-    let predicted = |trial: &&Trial| model.predict(&record(campaign, trial), trial.predicted.as_ref());
+    let predicted = |trial: &&Trial| {
+        let (whole, rows) = trial.with_unmeasured();
+        model.predict(&record(campaign, trial), whole.predicted.as_ref()).select_rows(&rows)
+    };
     Origin {
         data: campaign.manifest.name.clone(),
         arm: shape(&campaign.manifest),

@@ -57,8 +57,8 @@ pub fn of(data: &Data, trial: &Trial, rows: &[usize]) -> Vec<Load> {
     };
     let rig = rig(&campaign, &[trial]);
     let Some(arm) = &rig.arm else { return vec![] };
-    let contexts = record(&campaign, trial).contexts;
-    let at = |signal: usize, factor: f64| rows.iter().map(|&row| factor * contexts[signal][row]).collect();
+    let (contexts, whole) = (record(&campaign, trial).contexts, trial.with_unmeasured().1);
+    let at = |signal: usize, factor: f64| rows.iter().map(|&row| factor * contexts[signal][whole[row]]).collect();
     let load = |name: &str, place, unit: &str, size: Vec<f64>| Load {
         name: name.into(),
         place,

@@ -135,7 +135,7 @@ fn differs(place: usize, own: &Experiment, first: &Experiment) -> Option<Fault> 
         () if own.nominal != first.nominal => "nominal",
         () if windows.reach != first.windows.reach => "windows.reach",
         () if windows.evaluation_stride != first.windows.evaluation_stride => "windows.evaluation_stride",
-        () if windows.max_gap.to_bits() != first.windows.max_gap.to_bits() => "windows.max_gap",
+        () if windows.gap().to_bits() != first.windows.gap().to_bits() => "windows.max_gap",
         () if inputs.domain_filter != first.inputs.domain_filter => "inputs.domain_filter",
         () if inputs.learn_from != first.inputs.learn_from => "inputs.learn_from",
         () => return None,
