@@ -384,7 +384,12 @@ pub fn check(
 /// What ``acm-data describe`` prints: trials, ranges, clocks, and every signal drawn.
 #[pyfunction]
 #[pyo3(name = "describe", signature = (data, *, tables=None, max_gap=None))]
-pub fn described(py: Python<'_>, data: &Bound<'_, PyAny>, tables: Option<PathBuf>, max_gap: Option<f64>) -> PyResult<Text> {
+pub fn described(
+    py: Python<'_>,
+    data: &Bound<'_, PyAny>,
+    tables: Option<PathBuf>,
+    max_gap: Option<f64>,
+) -> PyResult<Text> {
     let place = place(data, tables)?;
     let folder = place.folder.clone();
     let opened = open(py, place, None, max_gap)?;

@@ -248,10 +248,16 @@ mod tests {
         let measured = DMatrix::from_fn(9, 1, |t, _| if [0, 3, 4].contains(&t) { f64::NAN } else { t as f64 });
         let trial = Trial { name: String::new(), record, lead: None, measured, predicted: None, offset: None };
         let series = Series::new(&trial, 2);
-        assert_eq!((series.rows.as_slice(), series.measured.as_slice()), ([1, 5, 7].as_slice(), [1.0, 5.0, 7.0].as_slice()));
+        assert_eq!(
+            (series.rows.as_slice(), series.measured.as_slice()),
+            ([1, 5, 7].as_slice(), [1.0, 5.0, 7.0].as_slice())
+        );
         assert_eq!((series.record.samples(), series.is_led), (9, false));
         let decimated = series.decimated(4, 2);
         assert_eq!(decimated.record.time, [0.0, 1.0, 4.0, 7.0, 8.0]);
-        assert_eq!((decimated.rows.as_slice(), decimated.measured.as_slice()), ([1, 3].as_slice(), [1.0, 7.0].as_slice()));
+        assert_eq!(
+            (decimated.rows.as_slice(), decimated.measured.as_slice()),
+            ([1, 3].as_slice(), [1.0, 7.0].as_slice())
+        );
     }
 }

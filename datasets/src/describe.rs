@@ -13,7 +13,6 @@ use acm_core::display::significant;
 use comfy_table::Table;
 use nalgebra::DMatrix;
 
-use crate::entry::Entry;
 use crate::error::DataError;
 use crate::join::How;
 use crate::manifest::{Manifest, Role};
@@ -94,13 +93,15 @@ pub fn checked(data: &Recordings) -> String {
 
 /// What a gap is, where it is not half a second in all trials.
 fn gaps(data: &Recordings, given: Option<f64>, text: &mut String) {
-    let longest = |a: &Entry, b: &Entry| a.max_gap.total_cmp(&b.max_gap);
-    let Some(slowest) = data.entries.iter().max_by(|a, b| longest(a, b)) else { return };
+    let Some(slowest) = data.entries.iter().max_by(|a, b| a.max_gap.total_cmp(&b.max_gap)) else { return };
     let (longest, name) = (significant(slowest.max_gap, 4), &slowest.name);
     let _ = match given {
         Some(_) => writeln!(text, "gap: a step in time over {longest} s"),
         None if slowest.max_gap > max_gap(None, 0.0) => {
-            writeln!(text, "gap: a step in time over five usual steps of the trial, at least 0.5 s ({longest} s in {name})")
+            writeln!(
+                text,
+                "gap: a step in time over five usual steps of the trial, at least 0.5 s ({longest} s in {name})"
+            )
         }
         None => return,
     };
@@ -225,7 +226,8 @@ impl Seen {
 }
 
 fn row(trial: &Trial, given: Option<f64>) -> [String; 8] {
-    let time = &trial.with_unmeasured().0.time;
+    let (whole, _) = trial.with_unmeasured();
+    let time = &whole.time;
     let parts = segments(time, max_gap(given, usual_step(time)));
     let step = median_step(time, &parts);
     let longest = time.windows(2).map(|t| t[1] - t[0]).fold(0.0, f64::max);

@@ -50,7 +50,7 @@ impl Entry {
         let max_gap = max_gap(given, usual_step(&whole.time));
         let samples = |segment: std::ops::Range<usize>| {
             let last = rows[..rows.partition_point(|row| *row < segment.end)].last();
-            last.filter(|last| segment.contains(last)).map_or(0, |last| last + 1 - segment.start)
+            last.filter(|last| segment.contains(*last)).map_or(0, |last| last + 1 - segment.start)
         };
         let columns = trial.actuators.column_iter().chain(trial.context.column_iter());
         Self {

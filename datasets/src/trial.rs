@@ -83,7 +83,9 @@ impl Trial {
         let mut order: Vec<usize> = (0..self.recorded()).collect();
         order.sort_by(|a, b| time(*a).total_cmp(&time(*b)));
         let join = |own_part: &DMatrix<f64>, lost_part: &DMatrix<f64>| {
-            let value = |row: usize, column: usize| if row < own { own_part[(row, column)] } else { lost_part[(row - own, column)] };
+            let value = |row: usize, column: usize| {
+                if row < own { own_part[(row, column)] } else { lost_part[(row - own, column)] }
+            };
             DMatrix::from_fn(order.len(), own_part.ncols(), |row, column| value(order[row], column))
         };
         let both = |a: &Option<DMatrix<f64>>, b: &Option<DMatrix<f64>>| Some(join(a.as_ref()?, b.as_ref()?));

@@ -92,7 +92,9 @@ fn predictions_stand_beside_the_recordings_and_nothing_else_changes() {
         assert_eq!((&own.name, own.role, &own.time), (&new.name, new.role, &new.time));
         assert_eq!((&own.actuators, &own.context, &own.measured), (&new.actuators, &new.context, &new.measured));
         assert_eq!((&own.vehicle, &own.conditions), (&new.vehicle, &new.conditions));
-        let lost = |trial: &acm_datasets::Trial| trial.unmeasured.as_ref().map(|lost| (lost.time.clone(), lost.actuators.clone()));
+        let lost = |trial: &acm_datasets::Trial| {
+            trial.unmeasured.as_ref().map(|lost| (lost.time.clone(), lost.actuators.clone()))
+        };
         assert_eq!(lost(own), lost(new), "{}", own.name);
         let predicted = new.predicted.as_ref().unwrap();
         for t in 0..own.samples() {

@@ -88,7 +88,7 @@ impl Trials {
         match self {
             Self::Held(campaign) => Ok(campaign.entries(max_gap)),
             Self::Streamed(set, _) => {
-                self.read(0..set.entries.len()).map(|trial| Ok(Entry::of(&*trial?, max_gap))).collect()
+                self.read(0..set.entries.len()).map(|trial| Ok::<_, DataError>(Entry::of(&*trial?, max_gap))).collect()
             }
         }
     }

@@ -89,7 +89,8 @@ impl Seen {
         let range = |column: &[f64]| {
             column.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(*v), high.max(*v)))
         };
-        let time = &trial.with_unmeasured().0.time;
+        let (whole, _) = trial.with_unmeasured();
+        let time = &whole.time;
         let steps = time.windows(2).map(|t| (t[1] - t[0], t[0], t[1]));
         Seen {
             trial: trial.name.clone(),

@@ -57,6 +57,6 @@ pub fn windows_of<'s>(index: usize, series: &'s Series, spec: &WindowSpec) -> im
     let WindowSpec { length, reach, stride } = *spec;
     assert!(length >= 1 && stride >= 1 && reach >= length, "{spec:?}");
     let reached = move |segment: &Range<usize>| segment.start + reach - 1..segment.end;
-    let targets = move |segment| reached(segment).filter(|end| series.is_measured(*end)).step_by(stride);
+    let targets = move |segment| reached(segment).filter(move |end| series.is_measured(*end)).step_by(stride);
     series.segments.iter().flat_map(targets).map(move |end| Window { series: index, end })
 }

@@ -109,11 +109,15 @@ fn lost_markers_are_counted_and_their_inputs_stay() {
     let (whole, own) = trial.with_unmeasured();
     assert_eq!((whole.samples(), own.len(), own[3]), (60, 57, 5));
     for (t, row) in set::rows(1).iter().enumerate() {
-        assert!((whole.time[t] - row[0] / 1000.0).abs() < 1e-12 && (whole.actuators[(t, 0)].to_degrees() - row[1]).abs() < 1e-9);
+        assert!(
+            (whole.time[t] - row[0] / 1000.0).abs() < 1e-12
+                && (whole.actuators[(t, 0)].to_degrees() - row[1]).abs() < 1e-9
+        );
         assert_eq!(whole.measured[(t, 0)].is_nan(), [3, 4, 10].contains(&t), "{t}");
     }
     // what leads up to a part stays with it, and the end has no use
-    let part = |rows: std::ops::Range<usize>| trial.select(&rows.collect::<Vec<_>>()).with_unmeasured().0.into_owned().time;
+    let part =
+        |rows: std::ops::Range<usize>| trial.select(&rows.collect::<Vec<_>>()).with_unmeasured().0.into_owned().time;
     assert_eq!((part(0..3).len(), part(3..8).len(), part(8..57).len()), (3, 7, 50));
     let entry = acm_datasets::Entry::of(trial, Some(0.15));
     assert_eq!((entry.samples, entry.longest), (57, 60), "no gap in time");

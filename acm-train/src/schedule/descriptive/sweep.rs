@@ -162,6 +162,7 @@ mod tests {
             conditions: Default::default(),
             dropped: Default::default(),
             file: Default::default(),
+            unmeasured: None,
         }
     }
 
