@@ -18,7 +18,7 @@ mod origin;
 mod point;
 
 pub use online::{NeedsFuture, OnlineModel, Sample, Snapshot};
-pub use origin::{ArmShape, Origin};
+pub use origin::{ArmShape, ManifestUnits, Origin};
 pub use point::Point;
 
 use nalgebra::DMatrix;

@@ -30,7 +30,7 @@ enum Command {
     /// Finds the physical effect that a nominal model lacks, and reports the error before and after
     #[command(long_about = close_loop::ABOUT, after_help = help(close_loop::EXAMPLES))]
     CloseLoop(question::Asked),
-    /// Writes a trained network for other programs: C99, ONNX, PyTorch
+    /// Writes an estimator for other programs: C99, ONNX, PyTorch
     #[command(long_about = export::ABOUT, after_help = help(export::EXAMPLES))]
     Export(export::ExportArgs),
     /// Scores a network that was trained elsewhere: in PyTorch, by the names of torch and ncps

@@ -142,7 +142,7 @@ impl<'a> Trainings<'a> {
         let note = out.with_extension("json");
         let before: Option<serde_json::Value> =
             fs::read_to_string(&note).ok().and_then(|text| serde_json::from_str(&text).ok());
-        if before.as_ref() != Some(&asked) && out.exists() {
+        if before.is_some_and(|before| before != asked) && out.exists() {
             fs::remove_dir_all(out).map_err(|source| EvalError::write(out, source))?;
         }
         acm_datasets::files::atomic::write_bytes(&note, asked.to_string().as_bytes()).map_err(EvalError::Table)

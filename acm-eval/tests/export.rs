@@ -12,8 +12,11 @@ use std::{
     process::{Command, Output},
 };
 
+use acm_datasets::Campaign;
+use acm_train::run::nominal::augmented;
 use acm_train::run::record::{RunRecord, read_records};
-use formulas::{Robot, table};
+use acm_train::store::hashed;
+use formulas::{Robot, TRIALS, self_test, table};
 use serde_json::Value;
 
 /// What a script returns where a package is missing.
@@ -35,21 +38,6 @@ fn python(script: &Path, arguments: &[&Path]) -> Option<Output> {
         return None;
     }
     Some(output)
-}
-
-/// Compiles the self-test of an export, and runs it.
-fn self_test(folder: &Path, name: &str) {
-    let program = folder.join("self-test");
-    let flags = ["-std=c99", "-Wall", "-Wextra", "-Werror", "-pedantic", "-O1", "-DSELFTEST"];
-    let source = folder.join(format!("{name}.c"));
-    let Ok(built) = Command::new("gcc").args(flags).arg(&source).arg("-o").arg(&program).output() else {
-        return eprintln!("skipped: gcc is not installed");
-    };
-    assert!(built.status.success(), "{}", String::from_utf8_lossy(&built.stderr));
-    let output = Command::new(program).output().unwrap();
-    let said = String::from_utf8_lossy(&output.stdout).into_owned();
-    println!("{name}.c: {}", said.trim());
-    assert!(output.status.success(), "{said}");
 }
 
 fn lines(text: &str) -> Vec<&str> {
@@ -80,6 +68,14 @@ fn all_three_agree_with_the_estimator() {
         ];
         assert_eq!(lines(&printed), expected);
         self_test(&robot.path("c"), "arm");
+        let header = fs::read_to_string(robot.path("c/arm.h")).unwrap();
+        for line in [
+            "ARM_ACTUATOR_Q1 = 0, /* q1: rad (manifest: deg; a value in deg times 0.017453292519943295 is SI) */",
+            "/* wind, column w: 1 (manifest: %; a value in % times 0.01 is SI) */",
+            "ARM_OUTPUT_Y = 1, /* y: m (manifest: mm; a value in mm times 0.001 is SI) */",
+        ] {
+            assert!(header.contains(line), "{line}: {header}");
+        }
         for script in ["onnx/arm_onnx_check.py", "torch/arm_torch.py"] {
             let Some(output) = python(&robot.path(script), &[]) else { continue };
             assert!(output.status.success(), "{script}");
@@ -94,6 +90,84 @@ fn all_three_agree_with_the_estimator() {
     }
 }
 
+/// The model of a closed loop, by its folder and by itself: dead time, play and lag, without a network.
+#[test]
+fn the_model_of_a_closed_loop_leaves_as_c() {
+    let robot = Robot::new();
+    robot.save_model();
+    let data = Campaign::read(&robot.path("data"), None).unwrap();
+    let model = augmented::read(&robot.path("model.json")).unwrap();
+    let origin = augmented::origin(&model, &data);
+    fs::create_dir(robot.path("loop")).unwrap();
+    robot.write("loop/loop.json", "{\"verdict\": \"named\", \"effects\": []}");
+    let model = String::from_utf8(hashed::encode(&model.with_origin(origin)).unwrap()).unwrap();
+    robot.write("loop/model.json", &model);
+    for (given, c) in [("loop", "c1"), ("loop/model.json", "c2"), ("model.json", "c3")] {
+        let (code, printed, told) = robot.ask("export", &[given, "--c99", c, "--name", "arm"], "");
+        assert_eq!((code, lines(&printed).len()), (0, 2), "{told}");
+        self_test(&robot.path(c), "arm");
+    }
+    let header = fs::read_to_string(robot.path("c1/arm.h")).unwrap();
+    for line in [
+        "ARM_ACTUATOR_Q2 = 1, /* q2: rad (manifest: deg; a value in deg times 0.017453292519943295 is SI) */",
+        "ARM_CONTEXT_WIND = 2, /* wind: 1 (manifest: %; a value in % times 0.01 is SI) */",
+        "ARM_OUTPUT_X = 0, /* x: m (manifest: mm; a value in mm times 0.001 is SI) */",
+        "network  none",
+    ] {
+        assert!(header.contains(line), "{line}: {header}");
+    }
+    let (code, _, told) = robot.ask("export", &["loop", "--onnx", "out"], "");
+    assert!(code == 2 && told.contains("without a network") && told.contains("--c99 DIR"), "{told}");
+    let (code, _, told) = robot.stream(&["loop", "--save", "robot.json"], "");
+    assert!(code == 2 && told.contains("acm-eval export loop --c99 DIR"), "{told}");
+    let (code, _, told) = robot.stream(&["model.json"], "");
+    assert!(code == 2 && told.contains("acm-eval export model.json --c99 DIR"), "{told}");
+    fs::rename(robot.path("loop/model.json"), robot.path("loop/refuted.json")).unwrap();
+    let (code, _, told) = robot.ask("export", &["loop", "--c99", "c4"], "");
+    assert!(code == 2 && told.contains("loop/refuted.json itself") && !robot.path("c4").exists(), "{told}");
+    assert_eq!(robot.ask("export", &["loop/refuted.json", "--c99", "c4"], "").0, 0);
+}
+
+/// Recordings, records and sources stay; what an export or `--save` wrote is replaced.
+#[test]
+fn nothing_of_others_is_replaced() {
+    let robot = Robot::new();
+    robot.learn_with(false, &["training.epochs=1"]);
+    for file in ["data/c1.csv", "data/manifest.toml", "run/records/final-seed1.json", "run/nominal.json", "gru.toml"] {
+        let before = fs::read(robot.path(file)).unwrap();
+        let (code, _, told) = robot.stream(&["run", "--save", file], "");
+        assert!(code == 2 && told.contains(file) && told.contains("another name"), "{file}: {code}: {told}");
+        assert_eq!(fs::read(robot.path(file)).unwrap(), before, "{file}");
+    }
+    for format in ["--c99", "--onnx", "--torch"] {
+        let (code, _, told) = robot.ask("export", &["run", format, "data"], "");
+        assert!(code == 2 && told.contains("data is a data set"), "{format}: {told}");
+    }
+    assert_eq!(fs::read_dir(robot.path("data")).unwrap().count(), TRIALS.len() + 1);
+    let exports = [
+        ("--c99", "estimator.c"),
+        ("--onnx", "estimator.onnx"),
+        ("--onnx", "estimator_onnx.json"),
+        ("--onnx", "estimator_onnx_check.py"),
+        ("--torch", "estimator.safetensors"),
+        ("--torch", "estimator_torch.json"),
+        ("--torch", "estimator_torch.py"),
+    ];
+    for (k, (format, file)) in exports.into_iter().enumerate() {
+        let folder = format!("mine{k}");
+        fs::create_dir(robot.path(&folder)).unwrap();
+        robot.write(&format!("{folder}/{file}"), "of somebody\n");
+        let (code, _, told) = robot.ask("export", &["run", format, &folder], "");
+        assert!(code == 2 && told.contains(file) && told.contains("another name"), "{file}: {code}: {told}");
+        assert_eq!(fs::read_dir(robot.path(&folder)).unwrap().count(), 1, "{file}");
+    }
+    for _ in 0..2 {
+        assert_eq!(robot.stream(&["run", "--save", "robot.json"], "").0, 0);
+        let (code, _, told) = robot.ask("export", &["run", "--c99", "out", "--onnx", "out", "--torch", "out"], "");
+        assert_eq!(code, 0, "{told}");
+    }
+}
+
 #[test]
 fn what_cannot_leave_is_refused_by_name() {
     let robot = Robot::new();
@@ -103,6 +177,13 @@ fn what_cannot_leave_is_refused_by_name() {
         (vec!["run", "--c99", "out", "--name", "9lives"], 2, "no name for files"),
         (vec!["nowhere", "--c99", "out"], 4, "no such folder"),
         (vec!["gru.toml", "--c99", "out"], 3, "gru.toml"),
+        (
+            vec!["gru.toml", "--c99", "out"],
+            3,
+            "give a run folder, a file of `acm-eval stream RUN --save FILE`, or the model.json",
+        ),
+        (vec!["run/nominal.json", "--c99", "out"], 3, "neither an estimator nor a model"),
+        (vec!["gru.toml", "--c99", "out", "--network", "final-seed1"], 2, "leave --network out"),
         (vec!["run", "--c99", "out", "--recorded", "0"], 2, "recorded"),
     ] {
         let (code, _, told) = robot.ask("export", &arguments, "");

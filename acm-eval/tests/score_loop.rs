@@ -268,3 +268,25 @@ fn a_reader_that_goes_away_is_no_failure() {
     let done = running.wait_with_output().unwrap();
     assert!(!String::from_utf8_lossy(&done.stderr).contains("panicked"), "{done:?}");
 }
+
+/// Files of others stay, and the command ends before its work begins.
+#[test]
+fn results_replace_results_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name);
+    for name in ["score.json", "several.json", "aliases.json", "mine.svg", "other.png"] {
+        fs::write(path(name), "of somebody").unwrap();
+        let place = path(name);
+        let arguments = match name {
+            "aliases.json" => vec!["--aliases".as_ref(), place.as_os_str()],
+            "mine.svg" | "other.png" => vec!["--seeds".as_ref(), "1".as_ref(), "--figure".as_ref(), place.as_os_str()],
+            _ => vec!["--seeds".as_ref(), "1".as_ref(), "--out".as_ref(), folder.path().as_os_str()],
+        };
+        let output =
+            Command::new(assert_cmd::cargo::cargo_bin!("acm-eval")).arg("score-loop").args(arguments).output().unwrap();
+        let told = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.code() == Some(2) && told.contains(name), "{name}: {told}");
+        assert_eq!(fs::read_to_string(&place).unwrap(), "of somebody");
+        fs::remove_file(&place).unwrap();
+    }
+}

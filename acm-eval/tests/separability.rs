@@ -82,6 +82,17 @@ fn one_speed_does_not_tell_play_from_lag() {
     assert!(page.contains("What these trials can tell apart") && page.contains("actuator_lag"));
     browser::links_resolve(&out.join("separability.html"));
 
+    // What others put into a folder stays as it is.
+    let mine = folder.path().join("mine");
+    fs::create_dir(&mine).unwrap();
+    fs::write(mine.join("separability.html"), "notes").unwrap();
+    let refused = command().arg("separability").arg(folder.path()).arg("--out").arg(&mine).assert().code(2);
+    assert!(said(&refused.get_output().stderr).contains("it holds separability.html"));
+    assert_eq!(
+        (fs::read_dir(&mine).unwrap().count(), fs::read(mine.join("separability.html")).unwrap()),
+        (1, b"notes".to_vec())
+    );
+
     // The same question has the same answer, to the last bit.
     let before = fs::read(out.join("separability.json")).unwrap();
     command().arg("separability").arg(folder.path()).arg("--out").arg(&out).assert().success();

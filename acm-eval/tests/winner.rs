@@ -15,7 +15,7 @@ use acm_train::{
         study::{self, best},
     },
 };
-use formulas::{Robot, TRIALS, table};
+use formulas::{Robot, TRIALS, self_test, table};
 
 const BEST: &str = r#"
 study    = "best"
@@ -96,7 +96,25 @@ fn the_winner_of_a_study_is_answered_as_it_was_scored() {
         let parts = AverageParts::from_json(&fs::read(robot.path("robot.json")).unwrap()).unwrap();
         let runs: usize = record.winner.members.iter().map(|member| if member.learned { 2 } else { 1 }).sum();
         assert_eq!(parts.members.len(), runs);
+        let learned = parts.members.iter().filter(|member| member.parts.has_network()).count();
         Average::new(parts).unwrap();
+        // It leaves as C, from the study and from the file, and as ONNX network by network.
+        for (given, c) in [(name, "c1"), ("robot.json", "c2")] {
+            let (code, _, told) = robot.ask("export", &[given, "--c99", c, "--windows"], "");
+            assert_eq!(code, 0, "{told}");
+            self_test(&robot.path(c), "estimator");
+        }
+        let header = fs::read_to_string(robot.path("c1/estimator.h")).unwrap();
+        assert!(header.contains("ESTIMATOR_OUTPUT_X = 0, /* x: m (manifest: mm;"), "{header}");
+        assert_eq!(header.contains(&format!("average  of {runs} estimators")), runs > 1, "{header}");
+        let (code, _, told) = robot.ask("export", &[name, "--onnx", "onnx"], "");
+        assert_eq!(code, if runs == 1 && learned == 1 { 0 } else { 2 }, "{told}");
+        assert_eq!(told.matches("acm-eval export").count(), if runs > 1 { learned } else { 0 }, "{told}");
+        for command in told.split('`').filter(|part| part.starts_with("acm-eval export")) {
+            let arguments: Vec<&str> = command.split(' ').skip(2).collect();
+            let (code, _, told) = robot.ask("export", &arguments, "");
+            assert_eq!(code, 0, "{command}: {told}");
+        }
         let page = assert_cmd::Command::new(assert_cmd::cargo::cargo_bin!("acm-eval"))
             .current_dir(robot.folder.path())
             .args(["report", name, "--out", "page"])

@@ -8,6 +8,9 @@ use serde_json::{Value, json};
 use crate::rehearsal::Vectors;
 use crate::{ExportError, Origin};
 
+/// Words at the head of every description; the second are those of earlier versions.
+pub const MARKS: &[&str] = &["{\n  \"acm_export\": ", "{\n  \"channels\": [\n    {\n      \"rate\": "];
+
 /// Returns the description without the recorded vectors.
 pub fn of(parts: &Parts, origin: &Origin, hash: &str) -> Value {
     let name = |source: &Source| match source {
@@ -21,6 +24,7 @@ pub fn of(parts: &Parts, origin: &Origin, hash: &str) -> Value {
         StateRule::Window(length) => json!(length),
     };
     json!({
+        "acm_export": env!("CARGO_PKG_VERSION"),
         "source": origin.source,
         "sha256": hash,
         "channels": channels,

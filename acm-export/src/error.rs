@@ -1,6 +1,6 @@
 //! Errors of an export.
 
-use acm_stream::{PartsError, StepError};
+use acm_stream::{AverageError, PartsError, StepError};
 use thiserror::Error;
 
 /// Reasons why an export is refused.
@@ -10,6 +10,9 @@ pub enum ExportError {
     /// The parts make no estimator.
     #[error(transparent)]
     Parts(#[from] PartsError),
+    /// The parts make no average.
+    #[error(transparent)]
+    Average(#[from] AverageError),
     /// A name that no program could use.
     #[error(
         "{name:?} is no name for files and functions; use a lower-case letter, then letters, digits and underscores, 40 at most"
@@ -19,14 +22,14 @@ pub enum ExportError {
         name: String,
     },
     /// The export cannot write a part of the estimator.
-    #[error("{what} cannot be written as {format} yet; {remedy}")]
+    #[error("{what} cannot be written as {format}; {remedy}")]
     Unsupported {
         /// Name of the part.
         what: String,
         /// Format of the export.
         format: &'static str,
         /// Alternative.
-        remedy: &'static str,
+        remedy: String,
     },
     /// The estimator refused a sample of the recorded vectors.
     #[error(

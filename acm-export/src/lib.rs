@@ -2,7 +2,7 @@
 //!
 //! | export   | contents                                                       | for                      |
 //! | -------- | -------------------------------------------------------------- | ------------------------ |
-//! | [`c99`]  | network, scalers, nominal model, effects: the whole estimator  | flight controllers       |
+//! | [`c99`]  | network, scalers, nominal model, effects: the whole estimator; averages of several; nominal models alone | flight controllers |
 //! | [`onnx`] | the network's step, with its scalers                           | ONNX Runtime             |
 //! | [`torch`] | the network and its scalers, by the names of torch and ncps   | PyTorch                  |
 //!
@@ -21,7 +21,7 @@ pub mod torch;
 
 use std::path::PathBuf;
 
-use acm_stream::{Parts, Scaler};
+use acm_stream::{AverageParts, Parts, Scaler};
 
 pub use error::ExportError;
 pub use parameters::{Parameter, parameters};
@@ -45,7 +45,20 @@ pub struct File {
     pub path: PathBuf,
     /// Bytes of the file.
     pub bytes: Vec<u8>,
+    /// Words by which an export's file of this kind is known, of this or an earlier version: its beginning has one of them.
+    pub marks: &'static [&'static str],
 }
+
+impl File {
+    /// Returns whether bytes are those of a file that an earlier export left under this name.
+    pub fn is_earlier(&self, bytes: &[u8]) -> bool {
+        let head = &bytes[..bytes.len().min(HEAD)];
+        self.marks.iter().any(|mark| head.windows(mark.len()).any(|part| part == mark.as_bytes()))
+    }
+}
+
+/// Bytes of a file in which a mark stands.
+const HEAD: usize = 512;
 
 impl Origin {
     /// Refuses a name that no program could use.
@@ -67,9 +80,21 @@ impl Origin {
 /// # Errors
 /// A number of the estimator is not finite.
 pub fn fingerprint(parts: &Parts) -> Result<String, ExportError> {
-    let text = String::from_utf8_lossy(&parts.to_json()?).into_owned();
-    let hash = text.lines().nth(1).and_then(|line| line.split('"').nth(3)).unwrap_or_default();
-    Ok(hash.to_owned())
+    Ok(noted(&parts.to_json()?))
+}
+
+/// The same of the average of several.
+///
+/// # Errors
+/// A number of an estimator is not finite.
+pub fn fingerprint_of_average(average: &AverageParts) -> Result<String, ExportError> {
+    Ok(noted(&average.to_json()?))
+}
+
+/// Returns the hash that a file notes in its second line.
+fn noted(json: &[u8]) -> String {
+    let text = String::from_utf8_lossy(json);
+    text.lines().nth(1).and_then(|line| line.split('"').nth(3)).unwrap_or_default().to_owned()
 }
 
 /// Returns the weights of each network: of one, or of those of an ensemble.
@@ -85,7 +110,22 @@ fn refuse_unsupported(parts: &Parts, format: &'static str) -> Result<(), ExportE
     Err(ExportError::Unsupported {
         what: "a network that corrects the actuators".into(),
         format,
-        remedy: "use the estimator in Rust (`acm-eval stream RUN --save FILE`), or train without network.corrects",
+        remedy: "use the estimator in Rust (`acm-eval stream RUN --save FILE`), or train without network.corrects"
+            .into(),
+    })
+}
+
+/// Refuses an estimator without a network for formats that hold nothing else.
+fn refuse_without_network(parts: &Parts, format: &'static str) -> Result<(), ExportError> {
+    if parts.has_network() {
+        return Ok(());
+    }
+    Err(ExportError::Unsupported {
+        what: "a nominal model without a network".into(),
+        format,
+        remedy: format!(
+            "{format} holds the step of a network alone; write the nominal model with its effects as C99: --c99 DIR"
+        ),
     })
 }
 

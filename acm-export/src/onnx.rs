@@ -26,11 +26,15 @@ use acm_stream::Parts;
 use prost::Message;
 
 use crate::{
-    ExportError, File, Origin, description, fingerprint, refuse_unsupported, rehearsal, with_factor_in_scaler,
+    ExportError, File, Origin, description, fingerprint, refuse_unsupported, refuse_without_network, rehearsal,
+    with_factor_in_scaler,
 };
 
 /// Default number of recorded steps.
 const RECORDED: usize = 300;
+
+/// Words at the head of every script.
+const CHECK: &str = ".onnx with the recorded vectors of ";
 
 /// Writes the model, recorded vectors, and a script that compares them by ONNX Runtime.
 ///
@@ -39,6 +43,7 @@ const RECORDED: usize = 300;
 pub fn export(parts: &Parts, origin: &Origin) -> Result<Vec<File>, ExportError> {
     origin.validate()?;
     refuse_unsupported(parts, "ONNX")?;
+    refuse_without_network(parts, "ONNX")?;
     let vectors = rehearsal::steps(parts, origin.recorded.unwrap_or(RECORDED))?;
     let hash = fingerprint(parts)?;
     let parts = &with_factor_in_scaler(parts);
@@ -46,11 +51,16 @@ pub fn export(parts: &Parts, origin: &Origin) -> Result<Vec<File>, ExportError> 
     let model = graph::model(parts, origin, &about);
     let name = |end: &str| PathBuf::from(format!("{}{end}", origin.name));
     Ok(vec![
-        File { path: name(".onnx"), bytes: model.encode_to_vec() },
-        File { path: name("_onnx.json"), bytes: description::with_vectors(about, &vectors)? },
+        File { path: name(".onnx"), bytes: model.encode_to_vec(), marks: &["acm-export"] },
+        File {
+            path: name("_onnx.json"),
+            bytes: description::with_vectors(about, &vectors)?,
+            marks: description::MARKS,
+        },
         File {
             path: name("_onnx_check.py"),
             bytes: include_str!("onnx/check.py").replace("@NAME", &origin.name).into_bytes(),
+            marks: &[CHECK],
         },
     ])
 }

@@ -3,7 +3,7 @@
 //! Inputs run through the ranges of training, on irregular steps with gaps. Some leave the ranges, and some the network does not
 //! see. The same parts and count give the same bits.
 
-use acm_stream::{Estimator, Nominal, Parts, Source, StateRule};
+use acm_stream::{Average, AverageParts, Estimator, Nominal, Parts, Source, StateRule, StepError};
 
 use crate::ExportError;
 
@@ -33,16 +33,30 @@ pub struct Answer {
 const GAP: usize = 37;
 const UNSEEN: usize = 11;
 
+/// Longest gap in steps that is tried; a longer one counts as none.
+const LONG: f64 = 1e6;
+
 /// Returns `count` samples: sums of two waves through each input's range, steps of half to one and a half times the
 /// usual one.
 pub fn samples(parts: &Parts, count: usize) -> Vec<Sample> {
-    let ranges = ranges(parts);
-    let step = parts.first_elapsed.min(0.6 * parts.max_gap);
+    samples_of_average(&AverageParts::of_one(parts.clone()), count)
+}
+
+/// Returns samples of an average: its usual step is the shortest of its members, and each gap is one for all of them.
+pub fn samples_of_average(average: &AverageParts, count: usize) -> Vec<Sample> {
+    let ranges = ranges_of_average(average);
+    let of = |value: fn(&Parts) -> f64, best: fn(f64, f64) -> f64| {
+        average.members.iter().map(|member| value(&member.parts)).reduce(best).unwrap_or(1.0)
+    };
+    let step = of(|parts| parts.first_elapsed.min(0.6 * parts.max_gap), f64::min);
+    // Without a network there is no gap; where it has none in fact, it is a long step.
+    let pause = of(|parts| if parts.has_network() { 2.5 * parts.max_gap } else { 0.0 }, f64::max);
+    let pause = if pause > 0.0 && pause < LONG * step { pause } else { 20.0 * step };
     let mut time = 0.0;
     let at = |k: usize| {
         let kf = k as f64;
         let gap = k > 0 && k % GAP == 0;
-        let elapsed = if gap { 2.5 * parts.max_gap } else { step * (1.0 + 0.5 * (2.3 * kf).sin()) };
+        let elapsed = if gap { pause } else { step * (1.0 + 0.5 * (2.3 * kf).sin()) };
         time += elapsed;
         let phase = time / step;
         let wave = |j: usize| {
@@ -61,13 +75,34 @@ pub fn samples(parts: &Parts, count: usize) -> Vec<Sample> {
 /// Parts that make no estimator, or that lead beyond what numbers hold.
 pub fn answers(parts: &Parts, samples: &[Sample]) -> Result<Vec<Answer>, ExportError> {
     let mut estimator = Estimator::new(parts.clone())?;
-    let mut found = Vec::with_capacity(samples.len());
-    for (k, Sample { inputs, elapsed, seen }) in samples.iter().enumerate() {
-        let answer = if *seen { estimator.step(inputs, *elapsed) } else { estimator.step_unseen(inputs, *elapsed) };
-        let tip = answer.map_err(|error| ExportError::Rehearsal { sample: k, error })?.to_vec();
-        found.push(Answer { tip, nominal: estimator.nominal().to_vec(), in_range: estimator.in_range() });
-    }
-    Ok(found)
+    each(samples, |inputs, elapsed, seen| {
+        let answer = if seen { estimator.step(inputs, elapsed) } else { estimator.step_unseen(inputs, elapsed) };
+        let tip = answer?.to_vec();
+        Ok(Answer { tip, nominal: estimator.nominal().to_vec(), in_range: estimator.in_range() })
+    })
+}
+
+/// Returns the answers of an average to `samples`, as [`answers`].
+///
+/// # Errors
+/// As [`answers`].
+pub fn answers_of_average(average: &AverageParts, samples: &[Sample]) -> Result<Vec<Answer>, ExportError> {
+    let mut mean = Average::new(average.clone())?;
+    each(samples, |inputs, elapsed, seen| {
+        let answer = if seen { mean.step(inputs, elapsed) } else { mean.step_unseen(inputs, elapsed) };
+        let tip = answer?.to_vec();
+        Ok(Answer { tip, nominal: mean.nominal().to_vec(), in_range: mean.in_range() })
+    })
+}
+
+fn each(
+    samples: &[Sample],
+    mut answer: impl FnMut(&[f64], f64, bool) -> Result<Answer, StepError>,
+) -> Result<Vec<Answer>, ExportError> {
+    let one = |(k, Sample { inputs, elapsed, seen }): (usize, &Sample)| {
+        answer(inputs, *elapsed, *seen).map_err(|error| ExportError::Rehearsal { sample: k, error })
+    };
+    samples.iter().enumerate().map(one).collect()
 }
 
 /// Returns the root mean square of each output over the answers.
@@ -75,6 +110,15 @@ pub fn rms(answers: &[Answer]) -> Vec<f64> {
     let outputs = answers.first().map_or(0, |answer| answer.tip.len());
     let square = |o: usize| answers.iter().map(|answer| answer.tip[o].powi(2)).sum::<f64>() / answers.len() as f64;
     (0..outputs).map(|o| square(o).sqrt()).collect()
+}
+
+/// Returns the smallest and largest value of each input of an average: those of the first member that reads it.
+fn ranges_of_average(average: &AverageParts) -> Vec<(f64, f64)> {
+    let mut all = vec![(-1.0, 1.0); average.inputs.len()];
+    for member in average.members.iter().rev() {
+        member.places.iter().zip(ranges(&member.parts)).for_each(|(place, range)| all[*place] = range);
+    }
+    all
 }
 
 /// Returns the smallest and largest value of each input: of its channel, or of the rig's known range.
@@ -85,7 +129,8 @@ fn ranges(parts: &Parts) -> Vec<(f64, f64)> {
         let signals = model.rig().actuators.iter().chain(&model.rig().contexts);
         all.iter_mut().zip(signals).for_each(|(range, signal)| *range = (signal.low, signal.high));
     }
-    for (c, channel) in parts.channels.iter().enumerate().filter(|(_, channel)| !channel.rate) {
+    let learned = parts.has_network();
+    for (c, channel) in parts.channels.iter().enumerate().filter(|(_, channel)| learned && !channel.rate) {
         let place = match channel.source {
             Source::Actuator(a) => a,
             Source::Context(e) => actuators + e,

@@ -15,12 +15,15 @@ use safetensors::Dtype;
 use safetensors::tensor::TensorView;
 
 use crate::{
-    ExportError, File, Origin, description, fingerprint, parameters, refuse_unsupported, rehearsal, weights_of_each,
-    with_factor_in_scaler,
+    ExportError, File, Origin, description, fingerprint, parameters, refuse_unsupported, refuse_without_network,
+    rehearsal, weights_of_each, with_factor_in_scaler,
 };
 
 /// Default number of recorded steps.
 const RECORDED: usize = 300;
+
+/// Words at the head of every module.
+const LOADER: &str = ".safetensors as a torch.nn.Module: one step, with its scalers.";
 
 /// Writes parameters, description and module.
 ///
@@ -29,17 +32,23 @@ const RECORDED: usize = 300;
 pub fn export(parts: &Parts, origin: &Origin) -> Result<Vec<File>, ExportError> {
     origin.validate()?;
     refuse_unsupported(parts, "PyTorch")?;
+    refuse_without_network(parts, "PyTorch")?;
     let vectors = rehearsal::steps(parts, origin.recorded.unwrap_or(RECORDED))?;
     let hash = fingerprint(parts)?;
     let parts = &with_factor_in_scaler(parts);
     let about = description::of(parts, origin, &hash);
     let name = |end: &str| PathBuf::from(format!("{}{end}", origin.name));
     Ok(vec![
-        File { path: name(".safetensors"), bytes: tensors(parts, &hash)? },
-        File { path: name("_torch.json"), bytes: description::with_vectors(about, &vectors)? },
+        File { path: name(".safetensors"), bytes: tensors(parts, &hash)?, marks: &["\"estimator_sha256\""] },
+        File {
+            path: name("_torch.json"),
+            bytes: description::with_vectors(about, &vectors)?,
+            marks: description::MARKS,
+        },
         File {
             path: name("_torch.py"),
             bytes: include_str!("torch/loader.py").replace("@NAME", &origin.name).into_bytes(),
+            marks: &[LOADER],
         },
     ])
 }

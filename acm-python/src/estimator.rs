@@ -94,7 +94,7 @@ impl Estimator {
     fn refuse_without_time(&self, time: bool) -> PyResult<()> {
         match self.sampler.wiring().time() {
             Some(column) if !time => {
-                let Column { name, unit } = column;
+                let Column { name, unit, .. } = column;
                 Err(usage(format!("give the times of the rows: time=, as `{name}` in {}", unit.name)))
             }
             _ => Ok(()),
@@ -107,7 +107,7 @@ fn of_folder(request: &Request, everywhere: bool) -> Result<(Estimator, Option<S
     let unfit = |error: String| EvalError::Data(format!("{}: {error}", request.run.display()));
     let kept = |domain| (!everywhere).then_some(domain);
     if best::is_one(request.run) {
-        let SavedBest { parts, wiring, domain, id, title } = best::load(request)?;
+        let SavedBest { parts, wiring, domain, id, title, .. } = best::load(request)?;
         let mean = Average::new(parts).map_err(|error| unfit(error.to_string()))?;
         return Ok((Estimator::new(Robot::Mean(mean), wiring, kept(domain), format!("{title}: {id}")), None));
     }

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use acm_core::augmented::AugmentedModel;
 use acm_datasets::Manifest;
-use acm_datasets::files::atomic;
+use acm_datasets::files::{atomic, owned};
 use acm_eval::closed_loop::folder::LoopFolder;
 use acm_eval::closed_loop::{
     self, finding_tables, head, separability_page, separability_summary, separability_tables, write_separability,
@@ -264,6 +264,7 @@ impl Model {
 impl Model {
     /// Writes the model, for ``[nominal] augmented`` of an experiment.
     fn save(&self, path: PathBuf) -> PyResult<()> {
+        owned::claim(&path, |head| hashed::begins(head, "rig")).map_err(of_data)?;
         atomic::write_bytes(&path, &self.bytes()?).map_err(of_data)
     }
 

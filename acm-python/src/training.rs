@@ -6,7 +6,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use acm_datasets::files::atomic;
+use acm_datasets::files::{atomic, owned};
 use acm_eval::report::{Report as Made, default_folder};
 use acm_train::{
     cli::{Cli, TrainError, conduct_with},
@@ -15,6 +15,7 @@ use acm_train::{
         progress::Progress,
         record::{PartScores, RunRecord, Stage, read_records},
     },
+    store::hashed,
 };
 use clap::Parser;
 use pyo3::{prelude::*, types::PyDict};
@@ -153,6 +154,7 @@ fn model(nominal: &Bound<'_, PyAny>, out: &Path) -> PyResult<PathBuf> {
     if fs::read(&file).is_ok_and(|own| own == bytes) {
         return Ok(file);
     }
+    owned::claim(&file, |head| hashed::begins(head, "rig")).map_err(of_data)?;
     if let Some(parent) = file.parent() {
         atomic::make_folder(parent).map_err(|error| usage(format!("{}: {error}", parent.display())))?;
     }

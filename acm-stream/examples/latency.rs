@@ -122,6 +122,7 @@ fn parts(nominal: Nominal, state: StateRule) -> Parts {
         network,
         members: vec![],
         interval: None,
+        labels: None,
         actuators: vec![],
         factor: 1.0,
         max_gap: 0.5,

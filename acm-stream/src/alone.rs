@@ -38,7 +38,13 @@ impl Parts {
             state: StateRule::Running,
             actuators: vec![],
             interval: None,
+            labels: None,
         };
         parts.kernel().map(|_| parts)
+    }
+
+    /// Returns whether a network takes part. [`Parts::alone`] has none: its factor is 0, and it knows no training range.
+    pub fn has_network(&self) -> bool {
+        self.factor != 0.0 || self.ranges.is_some()
     }
 }

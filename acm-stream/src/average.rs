@@ -74,6 +74,14 @@ pub enum AverageError {
 const ROUNDING: f64 = 1e-9;
 
 impl AverageParts {
+    /// Returns the average of one estimator, which answers as that estimator does.
+    pub fn of_one(parts: Parts) -> Self {
+        let labels = parts.labelled().inputs;
+        let inputs: Vec<String> = labels.into_iter().map(|label| label.column.unwrap_or(label.name)).collect();
+        let places = (0..inputs.len()).collect();
+        Self { inputs, members: vec![MemberParts { parts, places, weight: 1.0 }], interval: None }
+    }
+
     /// Returns the bytes of a JSON file with its SHA-256; numbers keep every bit.
     ///
     /// # Errors

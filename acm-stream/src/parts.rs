@@ -17,6 +17,7 @@ use thiserror::Error;
 
 use crate::channel::{Channel, Source};
 use crate::interval::Interval;
+use crate::labels::Labels;
 use crate::nominal::Nominal;
 use crate::range::ChannelRange;
 use crate::residual::StateRule;
@@ -65,6 +66,9 @@ pub struct Parts {
     /// Prediction interval; none in files of earlier versions, or with fewer than two trials left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub interval: Option<Interval>,
+    /// Names and units of inputs and outputs in the manifest; none in files of earlier versions.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub labels: Option<Labels>,
 }
 
 fn whole() -> f64 {
@@ -213,6 +217,10 @@ impl Parts {
                 let remedy = "above 0 and below 1, with half-widths of 0 or more";
                 return Err(PartsError::Value { what: "the interval's level", value: interval.level, remedy });
             }
+        }
+        if let Some(labels) = &self.labels {
+            count("names of inputs", labels.inputs.len(), self.width())?;
+            count("names of outputs", labels.outputs.len(), self.tip.len())?;
         }
         if self.state == StateRule::Window(0) {
             return Err(PartsError::Value { what: "the window", value: 0.0, remedy: "at least 1 sample" });

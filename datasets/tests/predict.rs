@@ -146,4 +146,10 @@ fn recordings_are_never_overwritten() {
     let done = predict(folder.path(), "set", LINEAR).code(2);
     assert!(str::from_utf8(&done.get_output().stderr).unwrap().contains("would be lost"));
     assert_eq!(fs::read_to_string(folder.path().join("set/manifest.toml")).unwrap(), MANIFEST);
+    // Nor are tables that have no manifest yet.
+    fs::create_dir(folder.path().join("new")).unwrap();
+    fs::write(folder.path().join("new/mine.csv"), "t,q\n").unwrap();
+    let done = predict(folder.path(), "new", LINEAR).code(2);
+    assert!(str::from_utf8(&done.get_output().stderr).unwrap().contains("mine.csv"));
+    assert_eq!(fs::read_dir(folder.path().join("new")).unwrap().count(), 1);
 }

@@ -94,7 +94,7 @@ fn a_folder_in_use_and_a_set_that_was_not_generated_are_left_alone() -> Outcome 
     let own = tempfile::tempdir()?;
     fs::write(own.path().join("manifest.toml"), "name = \"my robot\"\n")?;
     let (code, text) = command(own.path())?;
-    assert!(code == Some(2) && text.contains("manifest.toml is of a data set that was not generated"), "{text}");
+    assert!(code == Some(2) && text.contains("manifest.toml: this command did not write this file"), "{text}");
     assert_eq!(files(own.path())?.len(), 1);
     Ok(())
 }

@@ -55,6 +55,13 @@ pub fn verify(bytes: &[u8]) -> Result<String, Broken> {
     }
 }
 
+/// Returns whether bytes begin as a file of [`encode`] does whose object has this key first. Nothing else is checked.
+pub fn begins(bytes: &[u8], key: &str) -> bool {
+    let rest = bytes.strip_prefix(OPENING.as_bytes()).and_then(|rest| rest.strip_prefix(BEFORE.as_bytes()));
+    let content = rest.and_then(|rest| rest.get(DIGITS..)).and_then(|rest| rest.strip_prefix(AFTER.as_bytes()));
+    content.is_some_and(|content| content.starts_with(format!("  \"{key}\":").as_bytes()))
+}
+
 fn digest(text: &str) -> String {
     hexadecimal(&Sha256::digest(text))
 }
@@ -85,6 +92,13 @@ mod tests {
         let oracle = "b15d691ee91e61065da4da31edc55382";
         assert!(text.starts_with(&format!("{{\n  \"sha256\": \"{oracle}")), "{text}");
         assert!(text.ends_with("\",\n  \"a\": 1\n}\n"), "{text}");
+    }
+
+    #[test]
+    fn a_file_is_known_by_its_first_key() {
+        let bytes = encode(&sample()).unwrap();
+        assert!(begins(&bytes, "format") && begins(&bytes[..100], "format"));
+        assert!(!begins(&bytes, "rmse") && !begins(b"{\n  \"format\": 2\n}\n", "format") && !begins(b"", "format"));
     }
 
     #[test]

@@ -19,6 +19,21 @@ pub struct Origin {
     pub trials: Vec<String>,
     /// Root mean square error of the model on them, one for each output, SI.
     pub rms: Vec<f64>,
+    /// Units that the manifest gives the rig's signals; none in files of earlier versions.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub units: Option<ManifestUnits>,
+}
+
+/// Units of a manifest, in the order of the signals of a [`crate::rig::Rig`]. The model itself is in SI units.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ManifestUnits {
+    /// One for each actuator.
+    pub actuators: Vec<String>,
+    /// One for each context signal and condition.
+    pub contexts: Vec<String>,
+    /// One for each output.
+    pub outputs: Vec<String>,
 }
 
 /// How a continuum arm is modelled.

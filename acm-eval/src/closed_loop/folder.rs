@@ -32,9 +32,12 @@ use crate::error::EvalError;
 use crate::{closed_loop, ownership};
 
 const LOCK: &str = ".lock";
-const FINDING: &str = "loop.json";
-const MODEL: &str = "model.json";
-const REFUTED: &str = "refuted.json";
+/// Name of the result for programs.
+pub const FINDING: &str = "loop.json";
+/// Name of the model.
+pub const MODEL: &str = "model.json";
+/// Name of a model that held-out trials refute.
+pub const REFUTED: &str = "refuted.json";
 const PAGE: &str = "loop.html";
 const NETWORKS: &str = "networks";
 

@@ -17,6 +17,6 @@ mod summary;
 mod words;
 
 pub use page::numbers::{of_finding as finding_tables, of_separability as separability_tables};
-pub use page::separability::{separability_page, separability_summary, write_separability};
+pub use page::separability::{claim_separability, separability_page, separability_summary, write_separability};
 pub use page::{head, page};
 pub use summary::summary;

@@ -1,7 +1,7 @@
 //! `acm-eval separability`: effects that these trials can distinguish, before any claim is made from them.
 
 use acm_eval::{
-    closed_loop::{separability_summary, write_separability},
+    closed_loop::{claim_separability, separability_summary, write_separability},
     error::EvalError,
     question::Asked,
     terminal::print,
@@ -39,6 +39,7 @@ Exit codes: 0 done; 2 usage or configuration; 3 data (with file, row and column)
 /// Writes the result; prints the groups, the strongest confusions and where the page is.
 pub fn run(asked: &Asked) -> Result<(), EvalError> {
     let question = asked.read("separability", |warning| eprintln!("warning: {warning}"))?;
+    claim_separability(&question.out)?;
     let (out, steps) = (question.out.clone(), Steps::new(&question.recordings.case.rig));
     steps.begin("asking of every effect how much of it the others could imitate");
     let found = question.separability();

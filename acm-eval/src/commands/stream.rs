@@ -6,7 +6,7 @@ use std::{
 };
 
 use acm_datasets::Domain;
-use acm_datasets::files::atomic;
+use acm_datasets::files::{atomic, owned};
 use acm_eval::{
     error::EvalError,
     stream::{
@@ -19,6 +19,7 @@ use acm_eval::{
     terminal::print,
 };
 use acm_stream::{Average, Estimator};
+use acm_train::store::hashed;
 use clap::Args;
 
 /// Above the options, in full.
@@ -100,10 +101,13 @@ pub struct StreamArgs {
 
 /// Answers until standard input ends.
 pub fn run(args: &StreamArgs) -> Result<(), EvalError> {
+    if let Some(file) = &args.save {
+        owned::claim(file, is_saved).map_err(EvalError::Table)?;
+    }
     let request =
         Request { run: &args.run, id: args.network.as_deref(), data: args.data.as_deref(), windows: args.windows };
     if best::is_one(&args.run) {
-        let SavedBest { parts, wiring, domain, id, title } = best::load(&request)?;
+        let SavedBest { parts, wiring, domain, id, title, .. } = best::load(&request)?;
         if let Some(file) = &args.save {
             return save(parts.to_json(), file);
         }
@@ -141,6 +145,11 @@ fn save(bytes: serde_json::Result<Vec<u8>>, file: &Path) -> Result<(), EvalError
     let bytes = bytes.map_err(|error| EvalError::write(file, error.into()))?;
     atomic::write_bytes(file, &bytes).map_err(EvalError::Table)?;
     print(&file.display().to_string())
+}
+
+/// Returns whether a file begins as an estimator or an average does that was saved.
+fn is_saved(head: &[u8]) -> bool {
+    ["signals", "inputs"].iter().any(|key| hashed::begins(head, key))
 }
 
 /// Returns the columns that lines must have, with their units.

@@ -127,6 +127,12 @@ fn former(root: &Path) -> Result<BTreeSet<String>, EvalError> {
         if let Some(name) = ownership::first_foreign(&place, |name| has(name, extensions)).map_err(unread)? {
             return Err(foreign(root, format!("it holds {folder}/{name}")));
         }
+        // Without a page there was no report, and pictures and tables are somebody's.
+        if !page.exists()
+            && let Some(name) = ownership::first_foreign(&place, |_| false).map_err(unread)?
+        {
+            return Err(foreign(root, format!("it holds {folder}/{name} and no {PAGE}")));
+        }
         for entry in fs::read_dir(&place).map_err(unread)? {
             let name = entry.map_err(unread)?.file_name().to_string_lossy().into_owned();
             files.extend(has(&name, extensions).then(|| format!("{folder}/{name}")));
@@ -183,6 +189,18 @@ mod tests {
         let there = |name: &str| out.join(name).exists();
         assert!(there("tables/c.csv") && there("figures/mine.svg") && there("notes.txt"));
         assert!(!there("figures/a.svg") && !there("tables/b.csv"));
+    }
+
+    #[test]
+    fn figures_and_tables_without_a_page_are_somebodys() {
+        for (folder, file) in [("figures", "mine.svg"), ("tables", "mine.csv")] {
+            let root = tempfile::tempdir().unwrap();
+            fs::create_dir(root.path().join(folder)).unwrap();
+            fs::write(root.path().join(folder).join(file), "").unwrap();
+            let refused = ReportFolder::claim(root.path()).unwrap_err();
+            assert!(refused.exit_code() == 2 && refused.to_string().contains(file), "{refused}");
+            assert_eq!(fs::read_dir(root.path()).unwrap().count(), 1);
+        }
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! From the folder of a study of the best model to the winner beside a robot: the mean over its members, each the mean over its
 //! final runs.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::chapter::{best, best_sequences};
 use crate::error::EvalError;
@@ -26,6 +26,8 @@ pub struct SavedBest {
     pub domain: acm_datasets::Domain,
     /// Name of the winner.
     pub id: String,
+    /// Run folder and name of each network of it.
+    pub networks: Vec<(PathBuf, String)>,
     /// One line about the data, for people.
     pub title: String,
 }
@@ -60,7 +62,7 @@ pub fn load(request: &Request) -> Result<SavedBest, EvalError> {
             record.chosen().name()
         ));
     }
-    let mut all: Vec<(Saved, f64)> = vec![];
+    let (mut all, mut networks): (Vec<(Saved, f64)>, _) = (vec![], vec![]);
     let share = 1.0 / record.winner.members.len() as f64;
     for member in &record.winner.members {
         let folder = request.run.join(&member.folder);
@@ -70,6 +72,8 @@ pub fn load(request: &Request) -> Result<SavedBest, EvalError> {
             false => saved::alone(&own)?,
         };
         let weight = share / runs.len() as f64;
+        let learned = runs.iter().filter(|saved| saved.parts.has_network());
+        networks.extend(learned.map(|saved| (folder.clone(), saved.id.clone())));
         all.extend(runs.into_iter().map(|saved| (saved, weight)));
     }
     let mut wirings = all.iter().map(|(saved, _)| &saved.wiring);
@@ -84,7 +88,7 @@ pub fn load(request: &Request) -> Result<SavedBest, EvalError> {
     };
     let members = all.into_iter().map(member).collect();
     let parts = AverageParts { inputs, members, interval: saved::interval(request.run)? };
-    Ok(SavedBest { parts, wiring, domain, id: record.chosen().name(), title })
+    Ok(SavedBest { parts, wiring, domain, id: record.chosen().name(), networks, title })
 }
 
 /// Returns the final runs of a member.

@@ -13,6 +13,7 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::closed_loop::folder;
 use crate::error::EvalError;
 use acm_core::{NominalModel, augmented::AugmentedModel};
 use acm_datasets::{Campaign, Domain, Role, Trial, WindowSpec, rig::rig, windows};
@@ -64,9 +65,16 @@ pub struct Saved {
 /// What is no run, has no such network, or was trained on other data than those that are there.
 pub fn load(request: &Request) -> Result<Saved, EvalError> {
     let file = request.run.join("experiment.toml");
+    if request.run.is_file() {
+        let path = request.run.display();
+        return Err(EvalError::Usage(format!(
+            "{path} is a file; give a run folder, such as runs/cfc; files are for `acm-eval export {path} --c99 DIR`"
+        )));
+    }
     if !request.run.is_dir() {
         return Err(EvalError::NoFolder { path: request.run.into() });
     }
+    refuse_loop(request.run)?;
     if !file.is_file() || !request.run.join("records").is_dir() {
         return Err(EvalError::NotARun { path: request.run.into(), missing: "experiment.toml or no records/" });
     }
@@ -119,6 +127,7 @@ pub fn load(request: &Request) -> Result<Saved, EvalError> {
         members: weights,
         actuators: scalers.actuators.clone(),
         interval,
+        labels: Some(wiring.labels()),
         factor: record.factor,
         max_gap: asked.gap(),
         first_elapsed: rig(&campaign, &used).step,
@@ -142,8 +151,9 @@ pub fn alone(request: &Request) -> Result<Vec<Saved>, EvalError> {
         let nominal = predicts(calibrations.source, pair, model.clone(), &campaign);
         let wiring = Wiring::new(&campaign.manifest, &[], &nominal)?;
         let signals = Signals { actuators: wiring.actuators(), contexts: wiring.contexts() };
-        let parts = Parts::alone(signals, nominal, campaign.tip_columns(), rig(&campaign, &used).step)
+        let mut parts = Parts::alone(signals, nominal, campaign.tip_columns(), rig(&campaign, &used).step)
             .map_err(|error| EvalError::Data(format!("{}: {error}", request.run.display())))?;
+        parts.labels = Some(wiring.labels());
         let (domain, title) = (domain.clone(), campaign.manifest.title.clone());
         Ok(Saved { parts, wiring, domain, id: record.id.clone(), title, doubt: None })
     };
@@ -158,6 +168,19 @@ fn ranges(training: &Part, channels: usize) -> Option<Vec<ChannelRange>> {
         ChannelRange::of(samples)
     };
     (0..channels).map(of).collect()
+}
+
+/// Refuses the folder of a closed loop, which holds a model and no network.
+fn refuse_loop(run: &Path) -> Result<(), EvalError> {
+    if run.join("experiment.toml").is_file() || !run.join(folder::FINDING).is_file() {
+        return Ok(());
+    }
+    let path = run.display();
+    Err(EvalError::Usage(format!(
+        "{path} is the result of a closed loop: a model without a network; `acm-eval export {path} --c99 DIR` writes it as C, \
+         networks on top of it, if any were trained, are in {path}/networks, and acm-train trains one by nominal.augmented = \
+         \"{path}/model.json\""
+    )))
 }
 
 /// Refuses a network that was trained without an input, for a comparison.

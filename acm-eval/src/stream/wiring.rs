@@ -8,13 +8,15 @@ use acm_datasets::{
     manifest::{Measured, Signal},
     units::{Dimension, Unit},
 };
-use acm_stream::{Channel, Nominal, Source};
+use acm_stream::{Channel, Label, Labels, ManifestUnit, Nominal, Source};
 
 /// A column of numbers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Column {
     /// Name as in the manifest, or of a condition.
     pub name: String,
+    /// Name of the signal, where the manifest gives it one beside that of its column; of the column elsewhere.
+    pub signal: String,
     /// Unit of the written values.
     pub unit: Unit,
 }
@@ -89,7 +91,7 @@ impl Wiring {
         let mut inputs: Vec<Column> = actuators.iter().cloned().chain(contexts).collect();
         if model.is_some_and(|model| model.rig().carried) {
             for axis in ["x", "y", "z"] {
-                inputs.push(Column { name: format!("acceleration_{axis}"), unit: unit("m/s^2")? });
+                inputs.push(Column::new(format!("acceleration_{axis}"), unit("m/s^2")?));
             }
         }
         let given = matches!(nominal, Nominal::Given(_));
@@ -97,7 +99,7 @@ impl Wiring {
             inputs.extend(signals(&manifest.predicted)?);
         }
         let tip = &manifest.measured[manifest.tip_columns()];
-        let output = |m: &Measured| Ok(Column { name: m.name().to_string(), unit: unit(&m.unit)? });
+        let output = |m: &Measured| Ok(Column::new(m.name(), unit(&m.unit)?));
         Ok(Self {
             clock: clock(manifest)?,
             inputs,
@@ -116,9 +118,9 @@ impl Wiring {
     /// None that is known.
     pub fn in_si(inputs: &[String], outputs: usize) -> Result<Self, EvalError> {
         let si = unit("1")?;
-        let column = |name: String| Column { name, unit: si };
+        let column = |name: String| Column::new(name, si);
         Ok(Self {
-            clock: Clock::Stamps(Column { name: TIME.into(), unit: unit("s")? }),
+            clock: Clock::Stamps(Column::new(TIME, unit("s")?)),
             inputs: inputs.iter().cloned().map(column).collect(),
             channels: vec![],
             outputs: (0..outputs).map(|o| column(format!("output_{o}"))).collect(),
@@ -156,6 +158,12 @@ impl Wiring {
         self.inputs[self.actuators..self.actuators + self.contexts].iter().map(|column| column.name.clone()).collect()
     }
 
+    /// Returns names and units of inputs and outputs, for an estimator that goes elsewhere.
+    pub fn labels(&self) -> Labels {
+        let all = |columns: &[Column]| columns.iter().map(Column::label).collect();
+        Labels { inputs: all(&self.inputs), outputs: all(&self.outputs) }
+    }
+
     /// Returns the column of time, where there is one.
     pub fn time(&self) -> Option<&Column> {
         match &self.clock {
@@ -163,6 +171,27 @@ impl Wiring {
             Clock::Rate(_) => None,
         }
     }
+}
+
+impl Column {
+    /// Returns a column whose signal has no other name.
+    pub fn new(name: impl Into<String>, unit: Unit) -> Self {
+        let name = name.into();
+        Self { signal: name.clone(), name, unit }
+    }
+
+    fn label(&self) -> Label {
+        let column = (self.name != self.signal).then(|| self.name.clone());
+        Label { column, manifest: manifest_unit(&self.unit), ..Label::in_si(&self.signal, self.unit.si_name()) }
+    }
+}
+
+/// Returns a unit with its value in SI; none where it is the SI unit itself.
+pub fn manifest_unit(unit: &Unit) -> Option<ManifestUnit> {
+    let offset = unit.to_si(0.0);
+    let factor = unit.to_si(1.0) - offset;
+    let is_si = unit.name == unit.si_name() || (factor == 1.0 && offset == 0.0);
+    (!is_si).then(|| ManifestUnit { unit: unit.name.into(), factor, offset })
 }
 
 impl Clock {
@@ -179,13 +208,13 @@ impl Clock {
 /// Returns the clock. Lines of several sources come on one clock, with a column of time as `acm-data join` names it.
 fn clock(manifest: &Manifest) -> Result<Clock, EvalError> {
     if !manifest.source.list.is_empty() {
-        return Ok(Clock::Stamps(Column { name: TIME.into(), unit: unit("s")? }));
+        return Ok(Clock::Stamps(Column::new(TIME, unit("s")?)));
     }
     let time = &manifest.table.time;
     Ok(match (&time.column, time.rate_hz) {
         (None, rate) => Clock::Rate(rate.unwrap_or(1.0)),
         (Some(name), rate) => {
-            let column = Column { name: name.clone(), unit: unit(time.unit.as_deref().unwrap_or("s"))? };
+            let column = Column::new(name, unit(time.unit.as_deref().unwrap_or("s"))?);
             match column.unit.dimension {
                 Dimension::Sample => Clock::Numbers(column, rate.unwrap_or(1.0)),
                 _ => Clock::Stamps(column),
@@ -198,19 +227,22 @@ fn clock(manifest: &Manifest) -> Result<Clock, EvalError> {
 fn contexts(manifest: &Manifest) -> Result<Vec<(String, Column)>, EvalError> {
     let mut all: Vec<(String, Column)> = vec![];
     for signal in &manifest.context {
-        let column = Column { name: signal.column.clone(), unit: unit(&signal.unit)? };
-        all.push((signal.name().to_string(), column));
+        all.push((signal.name().to_string(), column(signal)?));
     }
     for (name, quantity) in manifest.conditions.values().flatten() {
         if all.iter().all(|(known, _)| known != name) {
-            all.push((name.clone(), Column { name: name.clone(), unit: unit(&quantity.unit)? }));
+            all.push((name.clone(), Column::new(name, unit(&quantity.unit)?)));
         }
     }
     Ok(all)
 }
 
 fn signals(signals: &[Signal]) -> Result<Vec<Column>, EvalError> {
-    signals.iter().map(|signal| Ok(Column { name: signal.column.clone(), unit: unit(&signal.unit)? })).collect()
+    signals.iter().map(column).collect()
+}
+
+fn column(signal: &Signal) -> Result<Column, EvalError> {
+    Ok(Column { signal: signal.name().into(), ..Column::new(&signal.column, unit(&signal.unit)?) })
 }
 
 fn is_called(signal: &Signal, name: &str) -> bool {

@@ -8,7 +8,10 @@
 //!
 //! 10 Hz with jitter, and a gap of 1 s in each trial.
 
-use std::{fs, path::PathBuf};
+use std::{
+    fs,
+    path::{Path, PathBuf},
+};
 
 use acm_core::{
     NominalSpec,
@@ -122,6 +125,21 @@ impl Robot {
         let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
         (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
     }
+}
+
+/// Compiles the self-test of an export, and runs it.
+pub fn self_test(folder: &Path, name: &str) {
+    let program = folder.join("self-test");
+    let flags = ["-std=c99", "-Wall", "-Wextra", "-Werror", "-pedantic", "-O1", "-DSELFTEST"];
+    let source = folder.join(format!("{name}.c"));
+    let Ok(built) = std::process::Command::new("gcc").args(flags).arg(&source).arg("-o").arg(&program).output() else {
+        return eprintln!("skipped: gcc is not installed");
+    };
+    assert!(built.status.success(), "{}", String::from_utf8_lossy(&built.stderr));
+    let output = std::process::Command::new(program).output().unwrap();
+    let said = String::from_utf8_lossy(&output.stdout).into_owned();
+    println!("{name}.c: {}", said.trim());
+    assert!(output.status.success(), "{said}");
 }
 
 pub fn table(trial: usize) -> String {

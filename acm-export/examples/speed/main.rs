@@ -138,6 +138,7 @@ fn parts(nominal: Nominal) -> Parts {
         members: vec![],
         actuators: vec![],
         interval: None,
+        labels: None,
         max_gap: 0.5,
         first_elapsed: 1e-3,
         state: StateRule::Running,

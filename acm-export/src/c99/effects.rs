@@ -61,8 +61,10 @@ pub fn write(
         return Err(ExportError::Unsupported {
             what: format!("the effect {name}"),
             format: "C99",
-            remedy: "use the estimator in Rust (`acm-eval stream RUN --save FILE`), or close the loop without it \
-                     and train on that model",
+            remedy: format!(
+                "close the loop without it (`--set 'effects.without=[\"{name}\"]'`) and export that model, or use the crate acm-stream \
+                 in Rust"
+            ),
         });
     };
     let varies = instance.context().is_some();

@@ -12,7 +12,7 @@ use acm_core::inter_sample::{AHEAD, InterSample, QUARTIC, UNEVEN};
 use acm_core::polynomial::Polynomial;
 use acm_core::rig::Rig;
 use acm_core::static_map::{Harmonic, StaticMap};
-use acm_stream::{Nominal, Signals};
+use acm_stream::{Nominal, Parts};
 
 use super::effects::{self, Inputs};
 use super::text::{double, doubles, rows};
@@ -20,7 +20,8 @@ use super::{Written, arm};
 use crate::ExportError;
 
 /// Writes the tables, functions and memory of the nominal model; `met` are actuators of samples.
-pub fn write(nominal: &Nominal, signals: &Signals, met: &[Vec<f64>]) -> Result<Written, ExportError> {
+pub fn write(parts: &Parts, met: &[Vec<f64>]) -> Result<Written, ExportError> {
+    let Parts { nominal, signals, .. } = parts;
     let actuators = signals.actuators.len();
     let mut written = Written::default();
     let body = match nominal {
@@ -41,17 +42,17 @@ pub fn write(nominal: &Nominal, signals: &Signals, met: &[Vec<f64>]) -> Result<W
     let between = between.filter(|(_, inter_sample)| *inter_sample != InterSample::Straight);
     let name = if between.is_none() { "nominal" } else { "straight" };
     written.source += &format!(
-        "\n/* All outputs y of the nominal model at one sample; `in` are its inputs. Returns $NAME_OK, or why it cannot. */\n\
-         static int {name}(double time, const double *in, {memory}double *y)\n{{\n{body}{unused}    return $NAME_OK;\n}}\n",
+        "\n/* All outputs y of the nominal model at one sample; `in` are its inputs. Returns $WHOLE_OK, or why it cannot. */\n\
+         static int {name}(double time, const double *in, {memory}double *y)\n{{\n{body}{unused}    return $WHOLE_OK;\n}}\n",
     );
     if let Some((rig, inter_sample)) = between {
-        add_samples(&inter_sample, rig, &mut written);
+        add_samples(&inter_sample, rig, parts.width(), &mut written);
     }
     Ok(written)
 }
 
 /// Adds the function that passes a sample on to `straight`, after the one that goes in before it.
-fn add_samples(inter_sample: &InterSample, rig: &Rig, written: &mut Written) {
+fn add_samples(inter_sample: &InterSample, rig: &Rig, inputs: usize, written: &mut Written) {
     let signals = rig.actuators.len() + rig.contexts.len() + if rig.carried { 3 } else { 0 };
     let (members, constants, source) = match inter_sample {
         InterSample::Quartic(_) => (
@@ -73,7 +74,8 @@ fn add_samples(inter_sample: &InterSample, rig: &Rig, written: &mut Written) {
     };
     let places = inter_sample.actuators();
     let listed: Vec<String> = places.iter().map(ToString::to_string).collect();
-    let source = source.replace("@COUNT", &places.len().to_string()).replace("@SIGNALS", &signals.to_string());
+    let sizes = [("@COUNT", places.len()), ("@SIGNALS", signals), ("@INPUTS", inputs)];
+    let source = sizes.iter().fold(source.to_owned(), |text, (key, size)| text.replace(key, &size.to_string()));
     written.members += &members;
     written.source += &format!("\n{constants}[{}] = {{ {} }};\n\n{source}", places.len(), listed.join(", "));
 }
@@ -187,7 +189,7 @@ fn augmented(model: &AugmentedModel, met: &[Vec<f64>], written: &mut Written) ->
         Instance::restore(term, rig).map_err(|what| ExportError::Unsupported {
             what,
             format: "C99",
-            remedy: "write the model again with this version",
+            remedy: "write the model again with this version".into(),
         })
     };
     let instances: Vec<Instance> = model.effects().iter().map(restore).collect::<Result<_, _>>()?;

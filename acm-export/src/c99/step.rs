@@ -13,9 +13,38 @@ const ROUNDING: f64 = 1.0 + 1e-9;
 const SLACK: f64 = 1e-9;
 
 const STEP: &str = include_str!("runtime/step.c");
+const NOMINAL: &str = include_str!("runtime/step_nominal.c");
+const PREDICT: &str = include_str!("runtime/predict.c");
 
-/// Writes the tables of channels and scalers, and the functions of the header.
+/// Writes the function `take`, with the tables of channels and scalers where there is a network.
 pub fn write(parts: &Parts, remembers: bool) -> String {
+    let (tables, step, own) = match parts.has_network() {
+        true => (tables(parts), STEP, of_network(parts, remembers)),
+        false => (String::new(), NOMINAL, vec![]),
+    };
+    let mut places = vec![("@PREDICT", PREDICT.to_owned())];
+    places.extend(own);
+    places.extend([
+        ("@INPUTS", parts.width().to_string()),
+        ("@OUTPUTS", parts.tip.len().to_string()),
+        ("@ALL", parts.nominal.outputs().to_string()),
+        ("@TIP", parts.tip.start.to_string()),
+        ("@MEMORY", if remembers { "&s->memory, ".into() } else { String::new() }),
+        ("@REFUSE_NOMINAL", refuse("NOMINAL", "            ", remembers)),
+    ]);
+    tables + "\n" + &places.iter().fold(step.to_owned(), |text, (key, value)| text.replace(key, value))
+}
+
+/// Returns the lines that refuse a sample after effects took it: they begin anew.
+fn refuse(code: &str, deep: &str, remembers: bool) -> String {
+    match remembers {
+        true => format!("memset(&s->memory, 0, sizeof s->memory);\n{deep}return $WHOLE_{code};"),
+        false => format!("return $WHOLE_{code};"),
+    }
+}
+
+/// Returns the tables of channels and scalers.
+fn tables(parts: &Parts) -> String {
     let actuators = parts.signals.actuators.len();
     let places: Vec<Vec<String>> = parts
         .channels
@@ -28,7 +57,6 @@ pub fn write(parts: &Parts, remembers: bool) -> String {
             vec![place.to_string(), u8::from(channel.rate).to_string()]
         })
         .collect();
-    let (channels, outputs) = (parts.channels.len(), parts.tip.len());
     let mut text = format!(
         "\n/* Channels of the network: input, and whether its rate of change stands in its place. */\n{}",
         rows("int", "CHANNEL", &places)
@@ -49,32 +77,29 @@ pub fn write(parts: &Parts, remembers: bool) -> String {
             rows("double", "RANGE", &ends)
         );
     }
-    let forget = if remembers { "memset(&s->memory, 0, sizeof s->memory);" } else { "" };
-    let refuse = |code: &str, deep: &str| match remembers {
-        true => format!("{forget}\n{deep}return $NAME_{code};"),
-        false => format!("return $NAME_{code};"),
-    };
+    text
+}
+
+/// Returns what stands for the names in the step of an estimator with a network.
+fn of_network(parts: &Parts, remembers: bool) -> Vec<(&'static str, String)> {
     let (ask, commit, locals) = asking(parts);
-    let places = [
+    let known = parts.ranges.is_some();
+    // A gap without end, as estimators without a network have it, is no number in C.
+    let gap = (parts.max_gap * ROUNDING).min(f64::MAX);
+    vec![
         ("@LOCALS", locals),
         ("@ASK", ask),
         ("@COMMIT", commit),
-        ("@CHANNELS", channels.to_string()),
-        ("@OUTPUTS", outputs.to_string()),
-        ("@PADDED", padded(outputs).to_string()),
-        ("@ALL", parts.nominal.outputs().to_string()),
-        ("@TIP", parts.tip.start.to_string()),
-        ("@MAX_GAP", double(parts.max_gap * ROUNDING)),
+        ("@CHANNELS", parts.channels.len().to_string()),
+        ("@PADDED", padded(parts.network.outputs).to_string()),
+        ("@MAX_GAP", double(gap)),
         ("@FIRST", double(parts.first_elapsed)),
-        ("@MEMORY", if remembers { "&s->memory, ".into() } else { String::new() }),
-        ("@IN_RANGE", if parts.ranges.is_some() { "inside".into() } else { "-1".into() }),
-        ("@LOOK", if parts.ranges.is_some() { LOOK.into() } else { String::new() }),
-        ("@INSIDE", if parts.ranges.is_some() { "    int inside = 1;\n".into() } else { String::new() }),
-        ("@REFUSE_NOMINAL", refuse("NOMINAL", "            ")),
-        ("@REFUSE_CHANNEL", refuse("CHANNEL", "                ")),
-        ("@REFUSE_OUTPUT", refuse("OUTPUT", "                ")),
-    ];
-    text + "\n" + &places.iter().fold(STEP.to_owned(), |text, (key, value)| text.replace(key, value))
+        ("@IN_RANGE", if known { "inside".into() } else { "-1".into() }),
+        ("@LOOK", if known { LOOK.into() } else { String::new() }),
+        ("@INSIDE", if known { "    int inside = 1;\n".into() } else { String::new() }),
+        ("@REFUSE_CHANNEL", refuse("CHANNEL", "                ", remembers)),
+        ("@REFUSE_OUTPUT", refuse("OUTPUT", "                ", remembers)),
+    ]
 }
 
 const LOOK: &str =

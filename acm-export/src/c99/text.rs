@@ -1,8 +1,9 @@
 //! Pieces of C: numbers that parse to the same bits, tables, and safe comments.
 
 use acm_kernels::{Body, Shape};
-use acm_stream::{Parts, StateRule};
+use acm_stream::{AverageParts, MemberParts, Parts, StateRule};
 
+use super::HEAD;
 use crate::Origin;
 
 /// Characters in a line of a table.
@@ -77,20 +78,49 @@ pub fn section(title: &str) -> String {
 }
 
 /// Writes the opening comment of both files.
-pub fn banner(parts: &Parts, origin: &Origin, hash: &str) -> String {
+pub fn banner(average: &AverageParts, origin: &Origin, hash: &str) -> String {
+    let members = match average.members.as_slice() {
+        [one] => network_line(&one.parts),
+        all => {
+            let line = |(k, member): (usize, &MemberParts)| {
+                format!(" * member {}, weight {}:\n{}", k + 1, member.weight, network_line(&member.parts))
+            };
+            let lines: String = all.iter().enumerate().map(line).collect();
+            format!(" * average  of {} estimators\n{lines}", all.len())
+        }
+    };
+    format!(
+        "{HEAD}{}. Do not edit: export it again.\n *\n{} * from     {}\n * SHA-256  {hash}\n{members} */\n",
+        env!("CARGO_PKG_VERSION"),
+        equations(average),
+        plain(&origin.source),
+    )
+}
+
+fn equations(average: &AverageParts) -> &'static str {
+    let several = average.members.len() > 1;
+    let learned = average.members.iter().any(|member| member.parts.has_network());
+    match (several, learned) {
+        (false, false) => " *   y_k = p_k, the nominal model with its effects\n *\n",
+        (false, true) => {
+            " *   y_k = p_k + r_k,   r_k = spread network(z_k, dt_k, h_(k-1)) + mean,   z = (x - mean)/spread\n *\n"
+        }
+        (true, false) => " *   y_k = sum_m w_m p_(m,k), nominal models with their effects\n *\n",
+        (true, true) => {
+            " *   y_k = sum_m w_m (p_(m,k) + r_(m,k)),   r_k = spread network(z_k, dt_k, h_(k-1)) + mean,   z = (x - mean)/spread\n *\n"
+        }
+    }
+}
+
+fn network_line(parts: &Parts) -> String {
+    if !parts.has_network() {
+        return " * network  none: the nominal model alone\n".into();
+    }
     let state = match parts.state {
         StateRule::Running => "runs on since the last start or gap".into(),
         StateRule::Window(length) => format!("over windows of {length} samples"),
     };
-    format!(
-        "/* A trained estimator, written by acm-export {}. Do not edit: export it again.\n *\n\
-         \x20*   y_k = p_k + r_k,   r_k = spread network(z_k, dt_k, h_(k-1)) + mean,   z = (x - mean)/spread\n *\n\
-         \x20* from     {}\n * SHA-256  {hash}\n * network  {}, {} parameters; its state {state}\n */\n",
-        env!("CARGO_PKG_VERSION"),
-        plain(&origin.source),
-        describe(&parts.network),
-        parts.weights.len(),
-    )
+    format!(" * network  {}, {} parameters; its state {state}\n", describe(&parts.network), parts.weights.len())
 }
 
 /// Returns the kind and sizes of a network.

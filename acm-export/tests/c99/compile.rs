@@ -4,8 +4,8 @@ use std::io::Write;
 use std::path::PathBuf;
 use std::process::{Command, Stdio};
 
-use acm_export::{Origin, c99, rehearsal};
-use acm_stream::Parts;
+use acm_export::{File, Origin, c99, rehearsal};
+use acm_stream::{AverageParts, Parts};
 use rehearsal::{Answer, Sample};
 use tempfile::TempDir;
 
@@ -31,8 +31,17 @@ pub fn compiler() -> Option<&'static str> {
 
 /// A folder with `estimator.h`, `estimator.c` and `drive.c`.
 pub fn written(parts: &Parts) -> TempDir {
+    beside_a_driver(c99::export(parts, &origin()).expect("it can be written"))
+}
+
+/// The same of an average.
+pub fn written_average(average: &AverageParts) -> TempDir {
+    beside_a_driver(c99::export_average(average, &origin()).expect("it can be written"))
+}
+
+fn beside_a_driver(files: Vec<File>) -> TempDir {
     let folder = tempfile::tempdir().expect("a folder");
-    for file in c99::export(parts, &origin()).expect("it can be written") {
+    for file in files {
         std::fs::write(folder.path().join(file.path), file.bytes).expect("a file");
     }
     std::fs::write(folder.path().join("drive.c"), include_str!("drive.c")).expect("a file");
@@ -95,16 +104,31 @@ pub fn deviations(found: &[Vec<f64>], right: &[Answer]) -> [f64; 2] {
 /// The whole way, for `count` samples with gaps; nothing where no compiler is there.
 pub fn compare(parts: &Parts, count: usize) -> Option<[f64; 2]> {
     let cc = compiler()?;
-    let folder = written(parts);
-    let program = link(cc, &folder, &["estimator.c", "drive.c"], &["-O1"]);
     let samples = rehearsal::samples(parts, count);
     let right = rehearsal::answers(parts, &samples).expect("samples that can be taken");
-    Some(deviations(&through(&program, &samples), &right))
+    Some(driven(cc, &written(parts), &samples, &right))
+}
+
+fn driven(cc: &str, folder: &TempDir, samples: &[Sample], right: &[Answer]) -> [f64; 2] {
+    let program = link(cc, folder, &["estimator.c", "drive.c"], &["-O1"]);
+    deviations(&through(&program, samples), right)
 }
 
 /// Asserts what an export must reach.
 pub fn assert_equal(what: &str, parts: &Parts, count: usize) {
-    if let Some([all, nominal]) = compare(parts, count) {
+    assert_close(what, compare(parts, count));
+}
+
+/// The same of an average.
+pub fn assert_equal_average(what: &str, average: &AverageParts, count: usize) {
+    let Some(cc) = compiler() else { return };
+    let samples = rehearsal::samples_of_average(average, count);
+    let right = rehearsal::answers_of_average(average, &samples).expect("samples that can be taken");
+    assert_close(what, Some(driven(cc, &written_average(average), &samples, &right)));
+}
+
+fn assert_close(what: &str, found: Option<[f64; 2]>) {
+    if let Some([all, nominal]) = found {
         println!("{what}: {all:.1e} of the RMS, nominal model {nominal:.1e}");
         assert!(all < 1e-5, "{what}: {all:.1e} of the RMS");
         assert!(nominal < 1e-9, "{what}: nominal model {nominal:.1e} of the RMS");

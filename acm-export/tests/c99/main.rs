@@ -2,8 +2,11 @@
 //!
 //! Compilers that are not there are named, and their tests skipped.
 
+mod alone;
+mod averages;
 mod compile;
 mod effects;
+mod names;
 mod networks;
 mod nominal;
 mod refusals;

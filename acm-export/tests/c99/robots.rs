@@ -115,6 +115,7 @@ pub fn parts(body: Body, nominal: Nominal, state: StateRule) -> Parts {
         members: vec![],
         actuators: vec![],
         interval: None,
+        labels: None,
         max_gap: 0.3,
         first_elapsed: 0.1,
         state,

@@ -33,6 +33,7 @@ fn several(channel: Channel, members: Vec<Vec<f32>>, factor: f64) -> Result<Esti
         state: StateRule::Running,
         actuators: vec![],
         interval: None,
+        labels: None,
     };
     Estimator::new(parts)
 }

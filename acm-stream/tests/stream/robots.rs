@@ -96,6 +96,7 @@ pub fn parts(body: Body, state: StateRule) -> Parts {
         network,
         members: vec![],
         interval: None,
+        labels: None,
         actuators: vec![],
         factor: 1.0,
         max_gap: MAX_GAP,

@@ -7,7 +7,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-pub use acm_hashed::{Broken, encode, verify};
+pub use acm_hashed::{Broken, begins, encode, verify};
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use sha2::{Digest, Sha256};
 

@@ -3,9 +3,8 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use acm_datasets::files::regular;
 use acm_datasets::generate::{self, undeclared};
-use acm_datasets::{Campaign, DataError, Trial};
+use acm_datasets::{Campaign, DataError, Trial, manifest::written};
 use acm_sim::small_rigs::{Kind as Rig, oracle, simulate};
 use acm_sim::twin::undeclared::{Design, Kind};
 use acm_sim::twin::{self, TwinSettings};
@@ -85,12 +84,6 @@ fn told(out: &Path, seed: u64, how: &str, text: &mut String) -> Result<(), DataE
 
 /// Makes the folder of a new set, before the work and not after it. A set that was not made here is left alone.
 fn make_place(out: &Path) -> Result<(), DataError> {
-    let manifest = out.join("manifest.toml");
-    match regular::read(&manifest) {
-        Ok(text) if !text.starts_with(MARK.as_bytes()) => Err(DataError::Usage(format!(
-            "{} is of a data set that was not generated; name another folder with --out DIR",
-            manifest.display()
-        ))),
-        _ => std::fs::create_dir_all(out).map_err(|e| DataError::file_system("create", out, &e)),
-    }
+    written::claim(out, MARK)?;
+    std::fs::create_dir_all(out).map_err(|e| DataError::file_system("create", out, &e))
 }

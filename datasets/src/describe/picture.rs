@@ -11,7 +11,7 @@ use std::path::Path;
 use acm_core::display::significant;
 
 use crate::error::DataError;
-use crate::files::atomic;
+use crate::files::{atomic, owned};
 use crate::join::{Alignment, How, Line};
 use crate::recordings::Recordings;
 
@@ -37,6 +37,9 @@ const FAINT: &str = "#5c5c5c";
 const GRID: &str = "#dddddd";
 const SOURCES: [&str; 6] = ["#0072b2", "#bd8200", "#009e73", "#c46d9d", "#d55e00", "#3796cf"];
 
+/// How the title of every picture begins.
+const OWN: &str = "<title>Signals of ";
+
 /// Several lines between two limits.
 struct Panel<'a> {
     /// Beside the upper and the lower limit.
@@ -46,6 +49,7 @@ struct Panel<'a> {
 
 /// Writes the picture; how many trials it shows.
 pub fn write(data: &Recordings, path: &Path) -> Result<usize, DataError> {
+    owned::claim(path, |head| head.windows(OWN.len()).any(|part| part == OWN.as_bytes()))?;
     let (mut body, mut y, mut count) = (String::new(), 12.0, 0);
     for entry in data.entries.iter().take(TRIALS) {
         let lines = data.on_one_clock(&entry.name)?;
@@ -66,7 +70,7 @@ pub fn write(data: &Recordings, path: &Path) -> Result<usize, DataError> {
     }
     let head = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {y}\" width=\"{WIDTH}\" height=\"{y}\" role=\"img\" \
-         font-family=\"system-ui, 'Segoe UI', 'DejaVu Sans', Arial, sans-serif\">\n<title>Signals of {} on the common clock</title>\n\
+         font-family=\"system-ui, 'Segoe UI', 'DejaVu Sans', Arial, sans-serif\">\n{OWN}{} on the common clock</title>\n\
          <rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n",
         escaped(&data.manifest.name)
     );

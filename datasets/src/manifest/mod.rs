@@ -7,7 +7,7 @@
 mod arm;
 mod source;
 mod validate;
-pub(crate) mod written;
+pub mod written;
 
 use std::collections::BTreeMap;
 use std::path::Path;

@@ -1,26 +1,28 @@
 //! Manifests of data sets that the program writes: it replaces its own, and never somebody's recordings.
 
-use std::io::ErrorKind;
+use std::ffi::OsStr;
+use std::fs;
 use std::path::Path;
 
 use super::Manifest;
 use crate::error::DataError;
-use crate::files::{atomic, regular};
+use crate::files::{atomic, owned};
 
-/// Refuses a folder whose manifest does not begin with `head`.
+/// Kinds of files that sets consist of.
+const KINDS: [&str; 4] = ["csv", "json", "parquet", "txt"];
+
+/// Refuses a folder whose manifest does not begin with `head`, and one that has no manifest and holds tables.
 ///
 /// # Errors
 /// Such a folder, or one that cannot be read.
 pub fn claim(folder: &Path, head: &str) -> Result<(), DataError> {
     let manifest = folder.join("manifest.toml");
-    match regular::read(&manifest) {
-        Ok(text) if text.starts_with(head.as_bytes()) => Ok(()),
-        Ok(_) => Err(DataError::Usage(format!(
-            "{} holds a data set of its own, which would be lost; name another folder with --out DIR",
-            folder.display()
-        ))),
-        Err(error) if error.kind() == ErrorKind::NotFound || error.kind() == ErrorKind::NotADirectory => Ok(()),
-        Err(error) => Err(DataError::file_system("read", &manifest, &error)),
+    owned::claim(&manifest, |text| text.starts_with(head.as_bytes()))?;
+    let table = |path: &Path| path.extension().and_then(OsStr::to_str).is_some_and(|kind| KINDS.contains(&kind));
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
+    match entries.filter(|path| table(path)).min() {
+        Some(path) if !manifest.exists() => owned::claim(&path, |_| false),
+        _ => Ok(()),
     }
 }
 

@@ -16,8 +16,9 @@ use std::path::{Path, PathBuf};
 
 use super::{Imported, Source};
 use crate::error::{DataError, Problems};
-use crate::files::{atomic, regular};
+use crate::files::atomic;
 use crate::ingest::recording::{self, Recording, Wanted};
+use crate::manifest::written;
 
 /// The line of the list.
 pub(super) const SOURCE: Source = Source {
@@ -43,13 +44,7 @@ const DISKS: [&str; 9] = ["x1", "y1", "z1", "x2", "y2", "z2", "x3", "y3", "z3"];
 
 fn import(clone: &Path, out: &Path) -> Result<Imported, DataError> {
     let folder = folder(clone)?;
-    let manifest = out.join("manifest.toml");
-    if regular::read(&manifest).is_ok_and(|found| found != MANIFEST.as_bytes()) {
-        return Err(DataError::Usage(format!(
-            "{} is another one than would be written; name another folder with --out DIR, or remove it",
-            manifest.display()
-        )));
-    }
+    written::claim(out, MANIFEST)?;
     let mut tables = Vec::new();
     for (run, measured, commanded) in RUNS {
         if !folder.join(measured).exists() && run != "run1_0g" {
@@ -69,7 +64,7 @@ fn import(clone: &Path, out: &Path) -> Result<Imported, DataError> {
             imported.push((name, rows));
         }
     }
-    atomic::write_bytes(&manifest, MANIFEST.as_bytes())?;
+    atomic::write_bytes(&out.join("manifest.toml"), MANIFEST.as_bytes())?;
     Ok(imported)
 }
 

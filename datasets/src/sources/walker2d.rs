@@ -20,6 +20,7 @@ use serde::Deserialize;
 use self::numpy::{RandomState, State, read};
 use super::{Imported, Source};
 use crate::error::DataError;
+use crate::files::owned;
 use crate::files::table::{Column, write_parquet};
 
 /// The line of the list.
@@ -81,6 +82,7 @@ struct Rollout {
 
 fn import(clone: &Path, out: &Path) -> Result<Imported, DataError> {
     let facts: Facts = toml::from_str(FACTS).map_err(|e| DataError::Usage(format!("facts of walker2d: {e}")))?;
+    owned::claim(&out.join(TABLE), |_| false)?;
     let rollouts = rollouts(&files(clone, facts.rollouts)?, &facts)?;
     prove(&rollouts, &facts.counts)?;
     let table = table(&rollouts, facts.states);

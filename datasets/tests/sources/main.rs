@@ -276,6 +276,12 @@ fn clocks_are_described_and_drawn() {
     {
         assert_eq!(drawn.matches(name).count(), panels, "{name}");
     }
+    for (file, code) in [("clocks.svg", 0), ("manifest.toml", 2)] {
+        let before = lab.read(file);
+        let (ended, text) =
+            run(&["describe".as_ref(), folder.as_ref(), "--picture".as_ref(), folder.join(file).as_ref()]);
+        assert!(ended == code && lab.read(file) == before, "{file}: {text}");
+    }
     assert!(drawn.matches("<polyline").count() >= 3 * 7, "{}", drawn.matches("<polyline").count());
     let (code, text) = run(&[
         "describe".as_ref(),

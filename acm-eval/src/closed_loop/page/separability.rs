@@ -7,7 +7,7 @@ use maud::{Markup, html};
 use std::path::{Path, PathBuf};
 
 use acm_core::display::shown;
-use acm_datasets::files::atomic;
+use acm_datasets::files::{atomic, owned};
 use acm_datasets::text::terminal::paragraph;
 
 use super::apart::member;
@@ -18,6 +18,7 @@ use crate::closed_loop::figures::matrix;
 use crate::closed_loop::quantity::percent;
 use crate::closed_loop::words::effect;
 use crate::error::EvalError;
+use crate::ownership;
 
 /// Largest number of pairs in the list of the closest.
 const PAIRS: usize = 15;
@@ -60,18 +61,39 @@ pub fn separability_page(separability: &Separability) -> String {
     document(&format!("What these trials can tell apart: {}", data.name), &body)
 }
 
-/// Writes figures and tables, the page, then the numbers into a folder; returns where the page is.
+/// Name of the numbers, by which the folder of a result is known.
+const NUMBERS: &str = "separability.json";
+
+/// Refuses a folder that holds anything but an earlier result.
 ///
 /// # Errors
-/// A file cannot be written, or a figure drawn.
-pub fn write_separability(found: &Separability, folder: &Path) -> Result<PathBuf, EvalError> {
-    let (page, file) = (folder.join("separability.html"), folder.join("separability.json"));
-    let numbers = serde_json::to_vec_pretty(found).map_err(|error| EvalError::write(&file, error.into()))?;
-    for (name, bytes) in beside::of_separability(found)? {
-        atomic::write_bytes(&folder.join(name), &bytes).map_err(EvalError::Table)?;
+/// Such a folder, or one that cannot be read.
+pub fn claim_separability(folder: &Path) -> Result<(), EvalError> {
+    let file = folder.join(NUMBERS);
+    let own = |head: &[u8]| head.starts_with(b"{\n  \"format\": ");
+    owned::claim(&file, own).map_err(EvalError::Table)?;
+    if file.exists() || !folder.is_dir() {
+        return Ok(());
     }
-    for (path, bytes) in [(&page, separability_page(found).into_bytes()), (&file, numbers)] {
-        atomic::write_bytes(path, &bytes).map_err(EvalError::Table)?;
+    let found = ownership::first_foreign(folder, |_| false).map_err(|source| EvalError::read(folder, source))?;
+    let Some(name) = found else { return Ok(()) };
+    let (folder, what) = (folder.into(), format!("it holds {name} and no {NUMBERS}"));
+    Err(EvalError::NotOwned { folder, made: "separability", what })
+}
+
+/// Writes the numbers, figures and tables, and the page into a folder; returns where the page is. From the numbers on the folder is that
+/// of a result.
+///
+/// # Errors
+/// A folder that holds something else ([`claim_separability`]); a file cannot be written, or a figure drawn.
+pub fn write_separability(found: &Separability, folder: &Path) -> Result<PathBuf, EvalError> {
+    claim_separability(folder)?;
+    let (page, file) = (folder.join("separability.html"), folder.join(NUMBERS));
+    let numbers = serde_json::to_vec_pretty(found).map_err(|error| EvalError::write(&file, error.into()))?;
+    let beside = beside::of_separability(found)?.into_iter().map(|(name, bytes)| (folder.join(name), bytes));
+    let all = std::iter::once((file.clone(), numbers)).chain(beside);
+    for (path, bytes) in all.chain([(page.clone(), separability_page(found).into_bytes())]) {
+        atomic::write_bytes(&path, &bytes).map_err(EvalError::Table)?;
     }
     Ok(page)
 }

@@ -28,13 +28,20 @@ use serde_json::{Value, json};
 
 pub use args::{EXAMPLES, ScoreArgs};
 use attempts::attempts;
-use results::{draw, keep, write};
+use results::{claim, claim_pictures, draw, keep, write};
+
+/// Files of figures.
+const SCORES: [&str; 3] = ["score.json", "several.json", "small_rigs.json"];
 
 /// Largest number of trials that counts as few.
 const FEW_TRIALS: usize = 6;
 
 /// Prints a line as each campaign is done, then the table.
 pub fn run(args: &ScoreArgs) -> Result<(), EvalError> {
+    // Before the work and not after it.
+    args.figure.as_ref().map_or(Ok(()), |name| claim_pictures(name))?;
+    args.aliases.as_ref().map_or(Ok(()), |file| claim(file))?;
+    args.out.as_ref().map_or(Ok(()), |out| SCORES.iter().try_for_each(|name| claim(&out.join(name))))?;
     if let Some(file) = &args.aliases {
         return aliases(file);
     }

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use acm_datasets::files::atomic;
+use acm_datasets::files::{atomic, owned};
 use acm_eval::error::EvalError;
 use acm_eval::scoring::answer::Answer;
 use acm_eval::scoring::figures::{QUESTION, diagram, reliability};
@@ -16,8 +16,27 @@ pub fn keep(args: &ScoreArgs, name: &str, score: &impl Serialize) -> Result<(), 
     args.out.as_ref().map_or(Ok(()), |out| write(&out.join(name), score))
 }
 
+/// How results of this command begin: scores, other figures, and a table of aliases.
+const OWN: [&str; 3] = ["{\n  \"format\": ", "{\n  \"configuration\": ", "{\n  \"command\": \"acm-eval score-loop"];
+
+/// Refuses to replace what is no result of this command.
+pub fn claim(file: &Path) -> Result<(), EvalError> {
+    owned::claim(file, |head| OWN.iter().any(|own| head.starts_with(own.as_bytes()))).map_err(EvalError::Table)
+}
+
+/// Refuses to replace pictures that are not reliability diagrams. A PNG says nothing of itself: the SVG beside it speaks for both.
+pub fn claim_pictures(name: &Path) -> Result<(), EvalError> {
+    let (svg, png) = (name.with_extension("svg"), name.with_extension("png"));
+    let own = |head: &[u8]| head.windows(DIAGRAM.len()).any(|part| part == DIAGRAM.as_bytes());
+    owned::claim(&svg, own).and_then(|()| owned::claim(&png, |_| svg.exists())).map_err(EvalError::Table)
+}
+
+/// How every diagram is named within.
+const DIAGRAM: &str = "<title id=\"reliability-title\">";
+
 /// Writes a value as JSON, and prints where.
 pub fn write(file: &Path, value: &impl Serialize) -> Result<(), EvalError> {
+    claim(file)?;
     let mut text = serde_json::to_vec_pretty(value).map_err(|e| EvalError::write(file, e.into()))?;
     text.push(b'\n');
     put(file, &text)
@@ -25,6 +44,7 @@ pub fn write(file: &Path, value: &impl Serialize) -> Result<(), EvalError> {
 
 /// Draws the reliability diagram as SVG and PNG.
 pub fn draw(name: &Path, answers: &[Answer]) -> Result<(), EvalError> {
+    claim_pictures(name)?;
     let claims: usize = answers.iter().map(|answer| answer.claims.len()).sum();
     let drawing = diagram(&reliability(answers), &format!("{} campaigns and rigs, {claims} claims", answers.len()));
     put(&name.with_extension("svg"), drawing.svg("reliability", QUESTION, &drawing.explanation).as_bytes())?;

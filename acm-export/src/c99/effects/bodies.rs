@@ -74,22 +74,22 @@ pub fn write(asked: &Asked) -> Option<Body> {
             )
         },
         "rate_limit" => Body {
-            memory: array("$name_lag", asked.columns),
+            memory: array("$whole_lag", asked.columns),
             needs: vec!["rate_limit"],
             ..each(asked, "|dq'_j/dt| <= 1/s_j", "x[j] = rate_limit_step(time, x[j], v[j], &m->state[j]);")
         },
         "backlash" => Body {
-            memory: array("$name_play", asked.columns),
+            memory: array("$whole_play", asked.columns),
             needs: vec!["play"],
             ..each(asked, "q'_k = min(max(q'_(k-1), q_k - w), q_k + w)", "x[j] = play_step(x[j], v[j], &m->state[j]);")
         },
         "actuator_lag" | "measurement_lag" => Body {
-            memory: array("$name_lag", asked.columns),
+            memory: array("$whole_lag", asked.columns),
             needs: vec!["lag"],
             ..some(asked, "tau dx'/dt = x - x'", "x[j] = lag_step(time, x[j], v[0], &m->state[j]);")
         },
         "friction_lag" => Body {
-            memory: array("$name_lag", asked.columns),
+            memory: array("$whole_lag", asked.columns),
             needs: vec!["stick_lag"],
             ..each(
                 asked,
@@ -98,7 +98,7 @@ pub fn write(asked: &Asked) -> Option<Body> {
             )
         },
         "asymmetric_lag" => Body {
-            memory: array("$name_lag", asked.columns),
+            memory: array("$whole_lag", asked.columns),
             needs: vec!["asymmetric_lag"],
             ..some(
                 asked,
@@ -107,7 +107,7 @@ pub fn write(asked: &Asked) -> Option<Body> {
             )
         },
         "creep" | "measurement_creep" => Body {
-            memory: array("$name_lag", asked.columns),
+            memory: array("$whole_lag", asked.columns),
             needs: vec!["lag"],
             ..each(
                 asked,
@@ -116,7 +116,7 @@ pub fn write(asked: &Asked) -> Option<Body> {
             )
         },
         "second_order_lag" | "measurement_second_order" => Body {
-            memory: array("$name_spring", asked.columns),
+            memory: array("$whole_spring", asked.columns),
             needs: vec!["second_order"],
             ..each(
                 asked,
@@ -125,7 +125,7 @@ pub fn write(asked: &Asked) -> Option<Body> {
             )
         },
         "viscous_slip" => Body {
-            memory: array("$name_slope", asked.columns),
+            memory: array("$whole_slope", asked.columns),
             needs: vec!["slope"],
             ..each(asked, "q'_j = q_j - c_j dq_j/dt", "x[j] -= v[j] * slope_step(time, x[j], &m->state[j]);")
         },
@@ -134,7 +134,7 @@ pub fn write(asked: &Asked) -> Option<Body> {
             4,
             "z'' + 2 d w z' + w^2 s(z) = w^2 x, s of the hardness k at c,   x = (q - m)/h,   q' = m + h z",
             "stiff_lag_step(time, z, v[0] / 6.283185307179586, v[1], v[2], v[3], 0.0, 1.0, &m->state[@J]) - z",
-            Some(("$name_spring", "stiff_lag")),
+            Some(("$whole_spring", "stiff_lag")),
         ),
         "coulomb_damping" => ranged(
             asked,
@@ -142,28 +142,28 @@ pub fn write(asked: &Asked) -> Option<Body> {
             "z'' + 2 d w z' + w^2 (s(z) + f z'/sqrt(z'^2 + t^2 w^2)) = w^2 x,   x = (q - m)/h,   q' = m + h z",
             "stiff_lag_step(time, z, v[0] / 6.283185307179586, v[1], v[2], v[3], v[4], v[5] * 6.283185307179586 / v[0], \
              &m->state[@J]) - z",
-            Some(("$name_spring", "stiff_lag")),
+            Some(("$whole_spring", "stiff_lag")),
         ),
         "state_dependent_lag" => ranged(
             asked,
             4,
             "tau (f + (1 - f) (1 + b z) (1 + |c| z^2)^sgn(c)) dq'/dt = q - q',   z = (q' - m)/h within -1 and 1",
             "varying_lag_step(time, z, v[0], bent_pace, v + 1, &m->state[@J]) - z",
-            Some(("$name_lag", "bent_pace")),
+            Some(("$whole_lag", "bent_pace")),
         ),
         "outflow" => ranged(
             asked,
             2,
             "tau (1 + b z) dz/dt = x - z,   x = (q - m)/h,   q' = m + h z",
             "varying_lag_step(time, z, v[0], flow_pace, v + 1, &m->state[@J]) - z",
-            Some(("$name_lag", "flow_pace")),
+            Some(("$whole_lag", "flow_pace")),
         ),
         "overflow" => ranged(
             asked,
             4,
             "v0 (1 + v1 z) dz/dt = x - z up to z = 1/v2 - 1,   x = (q - m)/h,   q' = m + h (z + v3 (x - z)) there, m + h z below",
             "overflow_step(time, z, v, &m->state[@J]) - z",
-            Some(("$name_lag", "overflow")),
+            Some(("$whole_lag", "overflow")),
         ),
         "input_nonlinearity" => ranged(
             asked,
@@ -201,7 +201,7 @@ pub fn write(asked: &Asked) -> Option<Body> {
             jet(&format!("v[0] * in[{}]", carrier(asked)?), "v[1]", "v[2]"),
         ),
         "wake_lag" => Body {
-            memory: array("$name_lag", 1),
+            memory: array("$whole_lag", 1),
             needs: vec!["lag"],
             ..plain_body(
                 "wash = b u' (1 - d), near = b u' d, held = -c of them,   tau du'/dt = u - u'",
@@ -224,7 +224,7 @@ pub fn write(asked: &Asked) -> Option<Body> {
             each(asked, "x'_j = x_j + k_j (c - c_0)", &format!("x[j] += v[j] * (in[{signal}] - v[@N]);"))
         }
         "context_lag" => Body {
-            memory: array("$name_lag", 1),
+            memory: array("$whole_lag", 1),
             needs: vec!["lag"],
             ..with(
                 asked,
@@ -250,7 +250,7 @@ pub fn write(asked: &Asked) -> Option<Body> {
             )
         },
         "dahl_friction" => Body {
-            memory: array("$name_slip", 1),
+            memory: array("$whole_slip", 1),
             needs: vec!["bouc_wen"],
             ..with(
                 asked,
@@ -265,10 +265,10 @@ pub fn write(asked: &Asked) -> Option<Body> {
             3,
             "lugre_step(time, d[0], v[@N], v[@N + 1], v[@N + 2], &m->state[0])",
             "lugre",
-            "$name_lag",
+            "$whole_lag",
         )?,
         "output_hysteresis" => Body {
-            memory: array("$name_play", 1),
+            memory: array("$whole_play", 1),
             needs: vec!["play"],
             ..with(
                 asked,
@@ -278,7 +278,7 @@ pub fn write(asked: &Asked) -> Option<Body> {
             )
         },
         "output_prandtl_ishlinskii" => Body {
-            memory: array("$name_play", SHARES.len()),
+            memory: array("$whole_play", SHARES.len()),
             needs: vec!["play"],
             ..with(
                 asked,
@@ -288,7 +288,7 @@ pub fn write(asked: &Asked) -> Option<Body> {
             )
         },
         "vibration_mode" => Body {
-            memory: array("$name_spring", 1),
+            memory: array("$whole_spring", 1),
             needs: vec!["second_order"],
             ..with(
                 asked,
@@ -308,7 +308,7 @@ pub fn write(asked: &Asked) -> Option<Body> {
             4,
             "bouc_wen_power_step(d[2], &v[@N], &m->state[0])",
             "bouc_wen_power",
-            "$name_slip",
+            "$whole_slip",
         )?,
         "viscous_friction" => motion(asked, "y'_m = y_m + c_m ds/dt", 0, "d[0]", None)?,
         "inertia" => motion(asked, "y'_m = y_m + mu_m d^2s/dt^2", 0, "d[1]", None)?,

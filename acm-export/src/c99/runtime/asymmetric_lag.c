@@ -1,6 +1,6 @@
 /* First-order lag with one time constant up and another down: up z' = x - z where x > z, down z' = x - z where x < z. The input is
  * straight between samples, and z meets it at most once in a piece. */
-static double asymmetric_lag_step(double time, double x, double up, double down, $name_lag *m)
+static double asymmetric_lag_step(double time, double x, double up, double down, $whole_lag *m)
 {
     const double h = m->started ? time - m->time : 0.0;
     const double ahead = m->y == m->x ? x - m->x : m->x - m->y;

@@ -15,7 +15,7 @@ static double away(double z, double way, double a)
     return -expm1_d(back - way);
 }
 
-static double bouc_wen_step(double x, double width, double a, $name_slip *m)
+static double bouc_wen_step(double x, double width, double a, $whole_slip *m)
 {
     const double step = m->started ? x - m->x : 0.0;
     if (step != 0.0) {

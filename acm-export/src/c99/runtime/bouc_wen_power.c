@@ -8,7 +8,7 @@ static double yield(double z, double a, double n)
     return 1.0 - power * (z < 0.0 ? -a : 1.0);
 }
 
-static double bouc_wen_power_step(double x, const double *v, $name_slip *m)
+static double bouc_wen_power_step(double x, const double *v, $whole_slip *m)
 {
     const double a = v[1], n = v[2], width = v[0] > 2.2250738585072014e-308 ? v[0] : 2.2250738585072014e-308;
     const double step = m->started ? x - m->x : 0.0, sign = step < 0.0 ? -1.0 : 1.0;

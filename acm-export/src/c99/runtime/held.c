@@ -7,7 +7,7 @@ static int nominal(double time, const double *in, $name_memory *memory, double *
         jumps = jumps || in[HELD[k]] != memory->last[HELD[k]];
     }
     if (memory->begun && jumps) {
-        double all[$NAME_INPUTS];
+        double all[@INPUTS];
         int result;
         memcpy(all, in, sizeof all);
         for (int i = 0; i < @SIGNALS; ++i) {
@@ -17,7 +17,7 @@ static int nominal(double time, const double *in, $name_memory *memory, double *
             all[HELD[k]] = memory->last[HELD[k]];
         }
         result = straight(time - AHEAD * (time - memory->last_time), all, memory, y);
-        if (result != $NAME_OK) {
+        if (result != $WHOLE_OK) {
             return result;
         }
     }

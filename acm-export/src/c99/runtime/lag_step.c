@@ -1,4 +1,4 @@
-static double lag_step(double time, double x, double tau, $name_lag *m)
+static double lag_step(double time, double x, double tau, $whole_lag *m)
 {
     const double h = m->started ? time - m->time : 0.0;
     m->y = h > 0.0 && tau > 1e-9 ? relax(m->y, m->x, x, h, tau) : x;

@@ -7,7 +7,7 @@ static double slide(double d, double h, double mean, double presliding, double s
     return sign * (sign * d - (most - sign * d) * expm1_d(-sign * mean * h / least / most));
 }
 
-static double lugre_step(double time, double rate, double presliding, double surplus, double w, $name_lag *m)
+static double lugre_step(double time, double rate, double presliding, double surplus, double w, $whole_lag *m)
 {
     const double h = m->started ? time - m->time : 0.0, past = m->started ? m->x : rate;
     if (past * rate < 0.0) {

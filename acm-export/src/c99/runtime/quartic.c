@@ -41,7 +41,7 @@ static int nominal(double time, const double *in, $name_memory *memory, double *
     }
     memory->count = last + 1;
     if (earlier > 0) {
-        double all[$NAME_INPUTS];
+        double all[@INPUTS];
         int result;
         memcpy(all, in, sizeof all);
         for (int i = 0; i < @SIGNALS; ++i) {
@@ -51,7 +51,7 @@ static int nominal(double time, const double *in, $name_memory *memory, double *
             all[CURVED[k]] = halfway(times, memory->values[CURVED[k]], last + 1);
         }
         result = straight(0.5 * (times[last - 1] + time), all, memory, y);
-        if (result != $NAME_OK) {
+        if (result != $WHOLE_OK) {
             return result;
         }
     }

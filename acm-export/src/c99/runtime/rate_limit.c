@@ -1,5 +1,5 @@
 /* Follows a signal that is straight between samples at no more than the speed 1/slowness; 0 is no limit. */
-static double rate_limit_step(double time, double x, double slowness, $name_lag *m)
+static double rate_limit_step(double time, double x, double slowness, $whole_lag *m)
 {
     const double h = m->started ? time - m->time : 0.0;
     if (h > 0.0 && slowness > 0.0) {

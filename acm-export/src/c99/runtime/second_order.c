@@ -1,5 +1,5 @@
 /* Second-order lag y'' + 2 z w y' + w^2 y = w^2 x, exact for a signal that is straight between samples; unit = 1/w, s. */
-static double second_order_step(double time, double x, double unit, double damping, $name_spring *m)
+static double second_order_step(double time, double x, double unit, double damping, $whole_spring *m)
 {
     const double h = m->started ? time - m->time : 0.0;
     const double slope = h > 0.0 ? (x - m->x) / h : 0.0;

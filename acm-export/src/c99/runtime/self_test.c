@@ -8,16 +8,16 @@ static double worse(double worst, double found, double right, double size)
 
 int main(void)
 {
-    static $name_state state;
+    static $whole_state state;
     double all = 0.0, nominal_model = 0.0;
     int outside = 0;
-    $name_restart(&state);
-    for (int k = 0; k < SAMPLES; ++k) {
-        $name_answer answer;
+    $whole_restart(&state);
+    for (int k = 0; k < RECORDED; ++k) {
+        $whole_answer answer;
         const double *in = SAMPLE[k] + 2;
-        const int result = SAMPLE[k][1] > 0.0 ? $name_step(&state, in, SAMPLE[k][0], &answer)
-                                              : $name_step_unseen(&state, in, SAMPLE[k][0], &answer);
-        if (result != $NAME_OK) {
+        const int result = SAMPLE[k][1] > 0.0 ? $whole_step(&state, in, SAMPLE[k][0], &answer)
+                                              : $whole_step_unseen(&state, in, SAMPLE[k][0], &answer);
+        if (result != $WHOLE_OK) {
             printf("sample %d was refused: %d\n", k, result);
             return 1;
         }
@@ -27,6 +27,6 @@ int main(void)
             nominal_model = worse(nominal_model, answer.nominal[o], ANSWER[k][@COUNT + o], SIZE[o][0]);
         }
     }
-    printf("%d samples: outputs within %.1e of their RMS, nominal model within %.1e\n", SAMPLES, all, nominal_model);
+    printf("%d samples: outputs within %.1e of their RMS, nominal model within %.1e\n", RECORDED, all, nominal_model);
     return all <= 1e-5 && nominal_model <= 1e-9 && outside == OUTSIDE ? 0 : 1;
 }

@@ -1,5 +1,5 @@
 /* Slope of the straight line through a sample and the two before it, per second. */
-static double slope_step(double time, double x, $name_slope *m)
+static double slope_step(double time, double x, $whole_slope *m)
 {
     double mean_time = 0.0, mean = 0.0, spread = 0.0, joint = 0.0;
     if (m->count == 3) {

@@ -1,30 +1,10 @@
 /* The next sample; the network is asked where it is `seen`. */
-static int take($name_state *s, const double *in, double elapsed, int seen, $name_answer *answer)
+static int take($name_state *s, const double *in, double elapsed, int seen, $whole_answer *answer)
 {
     float x[@CHANNELS], predicted[@PADDED];
 @LOCALS    double y[@ALL], out[@OUTPUTS], z[@CHANNELS], time, since;
     int begins, result;
-@INSIDE    for (int i = 0; i < $NAME_INPUTS; ++i) {
-        if (!(in[i] >= -1e12 && in[i] <= 1e12)) {
-            return $NAME_INPUT;
-        }
-    }
-    if (!s->started) {
-        elapsed = 0.0;
-    } else if (!(elapsed > 0.0 && s->time + elapsed <= 1e12)) {
-        return $NAME_TIME;
-    }
-    time = s->time + elapsed;
-    result = nominal(time, in, @MEMORYy);
-    if (result != $NAME_OK) {
-        return result;
-    }
-    for (int o = 0; o < @ALL; ++o) {
-        if (!(y[o] >= -1e290 && y[o] <= 1e290)) {
-            @REFUSE_NOMINAL
-        }
-    }
-    since = s->unseen + elapsed;
+@INSIDE@PREDICT    since = s->unseen + elapsed;
     /* After a longer step the network begins anew. */
     begins = s->history == 0 || since > @MAX_GAP;
     for (int c = 0; c < @CHANNELS; ++c) {
@@ -64,20 +44,5 @@ static int take($name_state *s, const double *in, double elapsed, int seen, $nam
     answer->in_range = @IN_RANGE;
     s->started = 1;
     s->time = time;
-    return $NAME_OK;
-}
-
-void $name_restart($name_state *state)
-{
-    memset(state, 0, sizeof *state);
-}
-
-int $name_step($name_state *state, const double inputs[$NAME_INPUTS], double elapsed, $name_answer *answer)
-{
-    return take(state, inputs, elapsed, 1, answer);
-}
-
-int $name_step_unseen($name_state *state, const double inputs[$NAME_INPUTS], double elapsed, $name_answer *answer)
-{
-    return take(state, inputs, elapsed, 0, answer);
+    return $WHOLE_OK;
 }

@@ -1,6 +1,6 @@
 /* First-order lag with dry friction: tau z' = x - z - w sgn z; z rests at zero while |x| <= w. The input is straight between
  * samples; where z reaches zero is found by bisection. */
-static double stick_lag_step(double time, double x, double tau, double width, $name_lag *m)
+static double stick_lag_step(double time, double x, double tau, double width, $whole_lag *m)
 {
     if (!(tau > 1e-9)) {
         m->y = x;

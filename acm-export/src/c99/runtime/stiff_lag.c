@@ -51,7 +51,7 @@ static double dry_friction_over(double force, double transition, double sum, dou
  * interval the linear part is exact, the pull is an input beside x, corrected by a Newton step, and the friction is constant. z stays
  * within 30 of x. */
 static double stiff_lag_step(double time, double x, double unit, double damping, double k, double c, double force, double transition,
-                             $name_spring *m)
+                             $whole_spring *m)
 {
     double slope;
     if (m->started && time > m->time && unit > 1e-9) {

@@ -1,7 +1,7 @@
 /* First-order lag whose time constant depends on its input and on where it is: tau b(x, z) z' = x - z. Parts of an interval, each
  * exact for the tau of the means at both ends, found by two passes; pace is b, with parameters v. */
 static double varying_lag_step(double time, double x, double tau, double (*pace)(double, double, const double *),
-                               const double *v, $name_lag *m)
+                               const double *v, $whole_lag *m)
 {
     if (m->started && time > m->time && tau > 1e-9) {
         const int parts = parts_of(time - m->time, tau * pace(x, m->y, v));

@@ -57,7 +57,7 @@ pub fn slipping(asked: &Asked, shapes: usize, equation: &'static str, size: &str
         format!("    x[{j}] -= {size};\n")
     };
     let code = (0..n).map(line).collect();
-    Body { memory: array("$name_slip", n), needs: vec!["bouc_wen"], ..plain_body(equation, code) }
+    Body { memory: array("$whole_slip", n), needs: vec!["bouc_wen"], ..plain_body(equation, code) }
 }
 
 /// Widths of plays as shares of the largest.
@@ -96,7 +96,7 @@ pub fn prandtl_ishlinskii(asked: &Asked) -> Body {
             );
         }
     }
-    let memory = array("$name_play", plays * asked.columns);
+    let memory = array("$whole_play", plays * asked.columns);
     Body {
         memory,
         needs: vec!["play"],

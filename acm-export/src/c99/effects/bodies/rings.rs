@@ -35,7 +35,7 @@ impl Ring {
         let room = self.least + 7 + (rate * longest.min(60.0)).ceil() as usize;
         format!(
             "\n/* Samples that effect {number} has room for: those of {longest} s. A sample that finds no room is refused \
-             ($NAME_ROOM). */\n#ifndef $NAME_EFFECT_{number}_ROOM\n#define $NAME_EFFECT_{number}_ROOM {room}\n#endif\n"
+             ($WHOLE_ROOM). */\n#ifndef $NAME_EFFECT_{number}_ROOM\n#define $NAME_EFFECT_{number}_ROOM {room}\n#endif\n"
         )
     }
 
@@ -49,7 +49,7 @@ impl Ring {
     /// Writes the lines that check for room before any effect takes the sample.
     pub fn check(&self, number: usize) -> String {
         format!(
-            "    if (!effect_{number}_has_room(time, &memory->effect_{number}, {})) {{\n        return $NAME_ROOM;\n    }}\n",
+            "    if (!effect_{number}_has_room(time, &memory->effect_{number}, {})) {{\n        return $WHOLE_ROOM;\n    }}\n",
             double(self.longest)
         )
     }

@@ -14,11 +14,11 @@
 use std::path::Path;
 
 use acm_core::{
-    augmented::{ArmShape, AugmentedModel, Origin},
+    augmented::{ArmShape, AugmentedModel, ManifestUnits, Origin},
     display::{DIGITS, significant},
     rig::{Mounting, Rig, Signal},
 };
-use acm_datasets::{Campaign, Manifest, Role, Trial, rig::record};
+use acm_datasets::{Campaign, Manifest, Role, Trial, manifest, rig::record};
 use nalgebra::DMatrix;
 
 use crate::run::{error::RunError, names};
@@ -150,6 +150,23 @@ pub fn origin(model: &AugmentedModel, campaign: &Campaign) -> Origin {
         arm: shape(&campaign.manifest),
         trials: trials.iter().map(|trial| trial.name.clone()).collect(),
         rms: rms(trials.iter().map(|trial| (&trial.measured, predicted(trial)))),
+        units: Some(units(model, &campaign.manifest)),
+    }
+}
+
+/// Returns the units of the manifest for the signals of the model.
+fn units(model: &AugmentedModel, manifest: &Manifest) -> ManifestUnits {
+    let listed = |signals: &[manifest::Signal]| signals.iter().map(|signal| signal.unit.clone()).collect();
+    let context = |signal: &Signal| {
+        let own = manifest.context.iter().find(|context| context.name() == signal.name);
+        let condition = || manifest.conditions.values().find_map(|constants| constants.get(&signal.name));
+        let unit = own.map(|own| own.unit.clone()).or_else(|| condition().map(|quantity| quantity.unit.clone()));
+        unit.unwrap_or_else(|| signal.unit.clone())
+    };
+    ManifestUnits {
+        actuators: listed(&manifest.actuator),
+        contexts: model.rig().contexts.iter().map(context).collect(),
+        outputs: manifest.measured.iter().map(|measured| measured.unit.clone()).collect(),
     }
 }
 
