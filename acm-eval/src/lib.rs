@@ -17,7 +17,7 @@ pub mod error;
 pub mod figures;
 mod json;
 pub mod network_table;
-mod ownership;
+pub mod ownership;
 pub mod page;
 pub mod question;
 pub mod report;

@@ -25,6 +25,7 @@ mod effects;
 mod fragments;
 mod header;
 mod member;
+mod memory;
 mod names;
 mod network;
 mod nominal;

@@ -7,8 +7,8 @@ use std::{
     sync::Arc,
 };
 
-use acm_datasets::files::atomic;
 use acm_datasets::files::table::write_arrow;
+use acm_datasets::files::{atomic, owned};
 use acm_datasets::predict::TABLE;
 use acm_datasets::recordings::Options;
 use acm_datasets::units::Unit;
@@ -83,6 +83,8 @@ impl Place {
         }
         atomic::make_folder(folder).map_err(|error| file("create", folder, &error))?;
         let table = if self.folder.join(FILE).exists() { FILE } else { TABLE };
+        let is_kept = folder.join(MANIFEST).exists();
+        owned::claim(&folder.join(table), |_| is_kept).map_err(of_data)?;
         for (name, bytes) in [(table, read(self.folder.join(table))?), (MANIFEST, own)] {
             atomic::write_bytes(&folder.join(name), &bytes).map_err(of_data)?;
         }

@@ -81,7 +81,7 @@ type Export = fn(&Given, &Origin) -> Result<Vec<File>, ExportError>;
 /// Writes every export that is asked for, and says which files it wrote.
 pub fn run(args: &ExportArgs) -> Result<(), EvalError> {
     let kinds: [Kind; 3] = [("C99", &args.c99, c99), ("ONNX", &args.onnx, onnx), ("PyTorch", &args.torch, torch)];
-    let asked = || kinds.iter().filter_map(|(name, folder, export)| Some((*name, folder.as_ref()?, export)));
+    let asked = || kinds.iter().filter_map(|(name, folder, export)| Some((*name, folder.as_deref()?, export)));
     asked().try_for_each(|(_, folder, _)| refuse_data_set(folder))?;
     let (id, data) = (args.network.as_deref(), args.data.as_deref());
     let given = Given::read(&Request { run: &args.run, id, data, windows: args.windows })?;

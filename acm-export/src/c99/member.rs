@@ -2,7 +2,7 @@
 
 use acm_stream::{AverageParts, MemberParts};
 
-use super::{Written, network, nominal, prefixed::prefixed, step, text};
+use super::{Written, memory, network, nominal, prefixed::prefixed, step, text};
 use crate::rehearsal::Sample;
 use crate::{ExportError, with_factor_in_scaler};
 
@@ -57,7 +57,7 @@ fn write(member: &MemberParts, samples: &[Sample]) -> Result<Member, ExportError
     source += &text::section("One sample");
     source += &step::write(parts, !nominal.memory.is_empty());
     Ok(Member {
-        types: super::header::memory(parts, &nominal),
+        types: memory::write(parts, &nominal),
         macros: nominal.macros,
         source,
         needs: nominal.needs.into_iter().chain(network.needs).collect(),
