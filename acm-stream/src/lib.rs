@@ -49,6 +49,7 @@ mod average;
 mod channel;
 mod estimator;
 mod interval;
+mod labelled;
 mod labels;
 mod moved;
 mod nominal;
