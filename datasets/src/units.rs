@@ -181,9 +181,10 @@ fn written(name: &str) -> String {
 }
 
 impl UnknownUnit {
-    fn suggestion(&self) -> String {
-        let long = match self.name.to_lowercase().as_str() {
-            "degree" | "degrees" | "°" => Some("deg"),
+    /// The unit that a long name or a name in another case means.
+    pub(crate) fn meant(&self) -> Option<&'static str> {
+        match self.name.to_lowercase().as_str() {
+            "degree" | "degrees" => Some("deg"),
             "radian" | "radians" => Some("rad"),
             "metre" | "metres" | "meter" | "meters" => Some("m"),
             "millimetre" | "millimetres" | "millimeter" | "millimeters" => Some("mm"),
@@ -196,8 +197,14 @@ impl UnknownUnit {
             "" | "-" | "none" => Some("1"),
             "samples" | "index" => Some("sample"),
             other => ALL.iter().find(|u| u.name.to_lowercase() == other).map(|u| u.name),
-        };
-        long.map_or(String::new(), |name| format!(" (did you mean {name:?}?)"))
+        }
+    }
+
+    fn suggestion(&self) -> String {
+        match self.name.to_lowercase().as_str() {
+            "degc" | "°c" | "c" | "celsius" => " (write \"K\": a constant offset changes no result)".into(),
+            _ => self.meant().map_or(String::new(), |name| format!(" (did you mean {name:?}?)")),
+        }
     }
 }
 

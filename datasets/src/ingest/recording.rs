@@ -12,17 +12,16 @@ mod parquet;
 mod ticks;
 mod written;
 
-pub(crate) use cells::Texts;
+pub(crate) use cells::{Cells, Texts};
 pub(crate) use content::Content;
 pub(crate) use header::visible;
 pub(crate) use numbers::{Missing, numbers_of, spelled};
-pub(crate) use parquet::{check_claims, check_ends, columns, guarded};
+pub(crate) use parquet::{Held, check_claims, check_ends, columns, guarded, schema};
 pub(crate) use ticks::{TickType, Ticks};
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use cells::Cells;
 use csv::Csv;
 use csv::decimal::Decimal;
 use parquet::ParquetFile;

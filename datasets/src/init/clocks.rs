@@ -3,7 +3,10 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use super::found::{Found, is_time};
+use super::found::Found;
+use super::names::quoted;
+use super::signals::Column;
+use super::time;
 use crate::join::clock::estimate::Named;
 use crate::join::{Request, Series, estimate, signals};
 use crate::manifest::{Source, Time};
@@ -24,42 +27,35 @@ pub(super) struct Located {
 }
 
 /// The columns by which the clock of a source can be estimated; none where nothing moves together.
-pub(super) fn located(
-    folder: &Path,
-    reference: &Found,
-    outputs: &[(String, String)],
-    source: &Found,
-) -> Option<Located> {
-    let trials = reference.trials();
-    let trial = trials.iter().next()?;
-    let file = if source.is_shared(&trials) { source.files.first() } else { source.file(trial) }?;
-    let bare = |full: &String| full.split_once('.').map(|(_, column)| column.to_string());
-    let of_reference =
-        series(&folder.join(reference.file(trial)?), reference, outputs.iter().filter_map(|o| bare(&o.0)))?;
-    let of_source = series(&folder.join(file), source, candidates(source).into_iter())?;
+pub(super) fn located(folder: &Path, reference: &Found, outputs: &[String], source: &Found) -> Option<Located> {
+    let first = reference.files.iter().find(|file| source.file(reference.trial(file)).is_some())?;
+    let trial = reference.trial(first);
+    let of_reference = series(&folder.join(&first.path), reference, outputs.iter().cloned())?;
+    let of_source = series(&folder.join(&source.file(trial)?.path), source, candidates(source).into_iter())?;
     let r: Vec<Named> = of_reference.iter().map(|(name, series)| (name.as_str(), series)).collect();
     let s: Vec<Named> = of_source.iter().map(|(name, series)| (name.as_str(), series)).collect();
     let found = estimate(&r, &s, &Request { around: None, drift: Some(0.0) }).ok()?;
     Some(Located {
         by: [format!("{}.{}", reference.name, found.reference), format!("{}.{}", source.name, found.source)],
-        found: format!("correlation {:.2} in `{trial}`, t {:+.3} s", found.correlation, found.offset),
+        found: format!("correlation {:.2} in trial {}, t {:+.3} s", found.correlation, quoted(trial), found.offset),
     })
 }
 
 /// Columns that tell of a motion, or the first.
 fn candidates(source: &Found) -> Vec<String> {
-    let names =
-        || source.columns.iter().map(|(name, _)| name).filter(|name| !is_time(name) && !name.contains("timestamp"));
-    let moves = |name: &&String| MOTION.iter().any(|part| name.to_lowercase().contains(part));
-    let moving: Vec<String> = names().filter(moves).take(COMPARED).cloned().collect();
-    if moving.is_empty() { names().take(COMPARED).cloned().collect() } else { moving }
+    let time = time::of(source, None).map(|time| time.column);
+    let columns = source.columns();
+    let usable = |column: &&Column| column.flaw().is_none() && Some(column.name) != time.as_deref();
+    let names = || columns.iter().filter(usable).map(|column| column.name).filter(|name| !name.contains("timestamp"));
+    let moves = |name: &&str| MOTION.iter().any(|part| name.to_lowercase().contains(part));
+    let moving: Vec<String> = names().filter(moves).take(COMPARED).map(str::to_string).collect();
+    if moving.is_empty() { names().take(COMPARED).map(str::to_string).collect() } else { moving }
 }
 
 fn series(path: &Path, of: &Found, columns: impl Iterator<Item = String>) -> Option<Vec<(String, Series)>> {
-    let time = match of.time().filter(|_| of.format.is_table()) {
-        Some((column, unit)) => Time { column: Some(column.into()), unit: Some(unit.into()), rate_hz: None },
-        None => Time::default(),
-    };
+    let time = time::of(of, None).filter(|_| of.format.is_table());
+    let column = time.map(|time| Time { column: Some(time.column), unit: time.unit, rate_hz: None });
+    let time = column.unwrap_or_default();
     let source = Source { name: of.name.clone(), format: Some(of.format), time, ..Source::default() };
     let columns: BTreeSet<String> = columns.collect();
     let read = signals::read(path, &source, &columns).ok()?;

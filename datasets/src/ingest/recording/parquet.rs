@@ -19,7 +19,7 @@ use polars_arrow::array::Array;
 use polars_arrow::datatypes::Field;
 use polars_error::{PolarsError, PolarsResult};
 use polars_parquet::read::schema::{infer_schema, parquet_to_arrow_schema};
-use polars_parquet::read::{FileMetadata, read_metadata};
+use polars_parquet::read::{FileMetadata, RowGroupMetadata, read_metadata};
 
 use self::kind::Kind;
 use super::cells::Cells;
@@ -39,6 +39,9 @@ const REMEDY: &str = "write the column as 64-bit floats in a common encoding (py
 thread_local! {
     static QUIET: Cell<bool> = const { Cell::new(false) };
 }
+
+/// Elements of a list that are listed as columns.
+const WIDEST: usize = 256;
 
 /// Rows that are decoded at a time, where groups of rows are no larger.
 const PIECE: usize = 1 << 16;
@@ -106,7 +109,7 @@ impl ParquetFile {
         let damaged = |reason: String| DataError::undecoded(path, reason, REMEDY);
         let opened = guarded(|| {
             let metadata = read_metadata(&mut content.reader())?;
-            let types = types(&metadata, wanted);
+            let types = types(&metadata, &wanted.columns());
             Ok((metadata, types))
         });
         let (metadata, mut types) = opened.map_err(damaged)?;
@@ -129,7 +132,7 @@ impl ParquetFile {
             Problems(std::mem::take(&mut found)).into_result()?;
         }
         problems.extend(found);
-        let pieces = pieces(metadata.row_groups.iter().map(polars_parquet::read::RowGroupMetadata::num_rows));
+        let pieces = pieces(metadata.row_groups.iter().map(RowGroupMetadata::num_rows));
         Ok(Self { path: path.to_path_buf(), content, metadata, columns, pieces })
     }
 
@@ -173,9 +176,62 @@ impl ParquetFile {
     }
 }
 
+/// What a column holds.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Held {
+    Number,
+    Text,
+    /// A type of time.
+    Time,
+    /// A type that is not read, by its name.
+    Unread(String),
+}
+
+/// Every column of a file in its order, and what it holds; lists of numbers are columns `action[0]`, `action[1]`, ….
+pub(crate) fn schema(path: &Path, content: &Content) -> Result<Vec<(String, Held)>, DataError> {
+    check_ends(path, content)?;
+    claims::check(path, &mut content.reader(), content.size(), &|_| false)?;
+    let read = guarded(|| {
+        let metadata = read_metadata(&mut content.reader())?;
+        let names: Vec<String> =
+            metadata.schema().fields().iter().flat_map(|field| elements(&metadata, field.name())).collect();
+        let types = types(&metadata, &names.iter().map(String::as_str).collect::<Vec<_>>());
+        let held = |name: String| (name.clone(), Held::of(types.get(&name).map(|stored| &stored.kind)));
+        Ok(names.into_iter().map(held).collect())
+    });
+    read.map_err(|reason| DataError::undecoded(path, reason, REMEDY))
+}
+
+impl Held {
+    fn of(kind: Option<&Kind>) -> Held {
+        match kind {
+            Some(Kind::Numbers | Kind::Whole | Kind::Halves | Kind::Decimals(_)) => Held::Number,
+            Some(Kind::Text) => Held::Text,
+            Some(Kind::Time(_)) => Held::Time,
+            Some(Kind::Lists) => Held::Unread("list".into()),
+            Some(Kind::Unread(kind)) => Held::Unread(kind.clone()),
+            None => Held::Unread("an unknown type".into()),
+        }
+    }
+}
+
+/// The columns that a column of lists makes, by the number of values in each row; another column is itself.
+fn elements(metadata: &FileMetadata, root: &str) -> Vec<String> {
+    let stored = parquet_to_arrow_schema(metadata.schema().fields());
+    let is_list = stored.get(root).is_some_and(|field| kind::of_list(&field.dtype, None).is_some());
+    let count = |group: &RowGroupMetadata| {
+        let column = group.columns_under_root_iter(root)?.next()?;
+        Some(column.num_values() as usize / group.num_rows().max(1))
+    };
+    match metadata.row_groups.iter().filter_map(count).max() {
+        Some(several) if is_list && several > 1 => (0..several.min(WIDEST)).map(|k| format!("{root}[{k}]")).collect(),
+        _ => vec![root.to_string()],
+    }
+}
+
 /// The types of the columns. What the Parquet types say holds for the bytes; the Arrow schema beside it adds types that
 /// Parquet has no name for.
-fn types(metadata: &FileMetadata, wanted: &Wanted) -> BTreeMap<String, Stored> {
+fn types(metadata: &FileMetadata, columns: &[&str]) -> BTreeMap<String, Stored> {
     let stored = parquet_to_arrow_schema(metadata.schema().fields());
     let named = infer_schema(metadata).ok();
     let of = |column: &str| {
@@ -194,7 +250,7 @@ fn types(metadata: &FileMetadata, wanted: &Wanted) -> BTreeMap<String, Stored> {
         };
         Some((column.to_string(), Stored { field, element, kind }))
     };
-    wanted.columns().into_iter().filter_map(of).collect()
+    columns.iter().copied().filter_map(of).collect()
 }
 
 /// Column and index of `action[1]`.

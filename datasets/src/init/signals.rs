@@ -1,0 +1,226 @@
+//! Columns as signals: what is commanded and what is measured. Names tell first; what they leave open is divided so that there are
+//! inputs and outputs.
+
+use std::collections::BTreeMap;
+use std::f64::consts::TAU;
+
+use super::found::Found;
+use super::look::Look;
+use super::names;
+use super::time::Time;
+use crate::ingest::recording::Held;
+use crate::units::{Dimension, Unit};
+
+/// Words of commands and words of measurements: strong ones, and weak ones that tell where no strong one does.
+const WORDS: [(Part, &str); 4] = [
+    (
+        Part::Actuator,
+        "cmd command commanded commands ref reference setpoint sp target desired des goal action soll sollwert",
+    ),
+    (Part::Measured, "meas measured measurement actual ist istwert observation obs feedback sensor encoder mocap"),
+    (
+        Part::Actuator,
+        "u motor motors tendon pwm voltage volt duty throttle valve control ctrl input pressure torque current servo actuator",
+    ),
+    (Part::Measured, "x y z pos position marker tip state output displacement weg pose optitrack vicon"),
+];
+
+/// Words of columns that are neither, whatever else they say.
+const NEITHER: &str = "rotation quat quaternion error quality residual temperature temp time timestamp";
+
+/// Words of the point that matters most.
+const TIP: &str = "tip tool effector";
+
+/// Signals of one part that are proposed of a table, and of another format.
+const PROPOSED: [usize; 2] = [12, 3];
+
+/// What a column is for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Part {
+    Actuator,
+    Measured,
+    Unknown,
+}
+
+/// A column, as each file of a group has it.
+#[derive(Debug, Clone)]
+pub(super) struct Column<'a> {
+    pub name: &'a str,
+    pub looks: Vec<&'a Look>,
+    /// How many files the group has.
+    pub files: usize,
+}
+
+/// A column in a draft.
+#[derive(Debug, Clone)]
+pub(super) struct Signal<'a> {
+    pub of: Column<'a>,
+    pub source: &'a Found,
+    pub unit: Option<&'a str>,
+    pub part: Part,
+    pub period: Option<f64>,
+    /// Why it is no signal.
+    pub flaw: Option<String>,
+    is_reference: bool,
+}
+
+fn told(name: &str) -> Part {
+    let words = names::words(name);
+    let part = WORDS.iter().find(|(_, list)| names::any(&words, list)).map_or(Part::Unknown, |(part, _)| *part);
+    if names::any(&words, NEITHER) { Part::Unknown } else { part }
+}
+
+/// Commands less measurements, by the names of a group and of its columns.
+pub(super) fn commands(found: &Found) -> i32 {
+    let vote = |name: &str| match told(name) {
+        Part::Actuator => 1,
+        Part::Measured => -1,
+        Part::Unknown => 0,
+    };
+    100 * vote(&found.name) + found.columns().iter().map(|column| vote(column.name)).sum::<i32>()
+}
+
+/// All columns but those of time and of trials.
+pub(super) fn signals<'a>(sources: &'a [Found], times: &[Option<Time>], trial: Option<&str>) -> Vec<Signal<'a>> {
+    let mut signals: Vec<Signal> = Vec::new();
+    for (k, (source, time)) in sources.iter().zip(times).enumerate() {
+        let time = time.as_ref().map(|time| time.column.as_str());
+        let columns = source.columns().into_iter();
+        let others = columns.filter(|column| Some(column.name) != time && Some(column.name) != trial);
+        signals.extend(others.map(|column| Signal::new(source, column, k == 0)));
+    }
+    keep_few(&mut signals);
+    fill(&mut signals);
+    signals
+}
+
+impl Column<'_> {
+    /// Whether each file has it once, by a name that a manifest can have.
+    pub fn is_sound(&self) -> bool {
+        self.looks.len() == self.files && !self.name.is_empty() && !self.name.contains(char::is_control)
+    }
+
+    pub fn empty(&self) -> usize {
+        self.looks.iter().map(|look| look.empty).sum()
+    }
+
+    pub fn counts_rows(&self) -> bool {
+        self.looks.iter().all(|look| look.whole && look.rises(&[], false) && look.pace() == Some(1.0))
+    }
+
+    /// Why it is no signal.
+    pub fn flaw(&self) -> Option<String> {
+        let low = self.looks.iter().map(|look| look.low).fold(f64::INFINITY, f64::min);
+        let high = self.looks.iter().map(|look| look.high).fold(f64::NEG_INFINITY, f64::max);
+        let is_index = names::words(self.name).last().is_some_and(|word| names::has("index frame id", word));
+        Some(match &self.looks[0].kind {
+            _ if self.name.is_empty() => "a column without a name: give it one in the header".into(),
+            _ if self.name.contains(char::is_control) => "its name has control characters: rename it".into(),
+            _ if self.looks.len() > self.files => "the header has it twice: rename one".into(),
+            _ if self.looks.len() < self.files => format!("{} of {} files have it", self.looks.len(), self.files),
+            Held::Unread(kind) => format!("a {kind}, which is not read"),
+            Held::Time => "a second time".into(),
+            Held::Text => "text".into(),
+            Held::Number if low > high => "always empty".into(),
+            Held::Number if low == high => format!("always {low}"),
+            Held::Number if self.counts_rows() || (is_index && self.looks[0].whole) => "it counts".into(),
+            Held::Number => return None,
+        })
+    }
+}
+
+impl<'a> Signal<'a> {
+    fn new(source: &'a Found, of: Column<'a>, is_reference: bool) -> Signal<'a> {
+        let (flaw, said) = (of.flaw(), of.looks.iter().find_map(|look| look.unit.as_deref()));
+        let open = flaw.is_some() || (told(of.name) == Part::Actuator && of.empty() > 0);
+        let part = if open { Part::Unknown } else { told(of.name) };
+        let period = of.looks.iter().find_map(|look| look.period());
+        let (period, unit) = match (period, said) {
+            (Some(360.0), None) => (period, Some("deg")),
+            (Some(turn), None) if turn.fract() != 0.0 => (period, Some("rad")),
+            // in another unit it is no period
+            (Some(turn), Some(unit)) => {
+                (period.filter(|_| full_turn(unit).is_some_and(|full| (full / turn - 1.0).abs() < 1e-6)), said)
+            }
+            _ => (period, said),
+        };
+        Signal { of, source, unit, part, period, flaw, is_reference }
+    }
+
+    /// Name in results, where the column's name has a unit in brackets and no other column is named so.
+    pub fn plain_name(&self) -> Option<&str> {
+        let (base, _) = names::unit(self.of.name).filter(|_| self.of.name.ends_with([']', ')']))?;
+        let alike = self.source.columns().iter().filter(|other| other.name.starts_with(base)).count();
+        (!base.is_empty() && alike == 1).then_some(base)
+    }
+
+    /// Whether its period is a full turn.
+    pub fn is_angle(&self) -> bool {
+        self.unit.and_then(full_turn).is_some()
+    }
+
+    fn is_table(&self) -> bool {
+        self.source.format.is_table()
+    }
+
+    fn most(&self) -> usize {
+        PROPOSED[usize::from(!self.is_table())]
+    }
+}
+
+/// A full turn in a unit of angles.
+fn full_turn(unit: &str) -> Option<f64> {
+    Unit::parse(unit).ok().filter(|unit| unit.dimension == Dimension::Angle).map(|unit| TAU / unit.factor())
+}
+
+/// Outputs are those of the reference; of motion capture and logs a few, the tip's first.
+fn keep_few(signals: &mut [Signal]) {
+    let commands = signals.iter().any(|signal| signal.is_table() && signal.part == Part::Actuator);
+    let is_tip = |signal: &Signal| signal.is_table() || names::any(&names::words(signal.of.name), TIP);
+    let tip = signals.iter().any(|signal| signal.part == Part::Measured && !signal.is_table() && is_tip(signal));
+    let mut counts = BTreeMap::<(&str, Part), usize>::new();
+    for signal in signals.iter_mut().filter(|signal| signal.part != Part::Unknown) {
+        let elsewhere = match signal.part {
+            Part::Measured => !signal.is_reference || (tip && !is_tip(signal)),
+            _ => commands && !signal.is_table(),
+        };
+        let count = counts.entry((&signal.source.name, signal.part)).or_insert(0);
+        *count += usize::from(!elsewhere);
+        if elsewhere || *count > signal.most() {
+            signal.part = Part::Unknown;
+        }
+    }
+}
+
+/// Where names tell of no actuator or of no output, open columns become one; where none is open, half of the others do.
+fn fill(signals: &mut [Signal]) {
+    let of = |signals: &[Signal], part: Part| -> Vec<usize> {
+        (0..signals.len()).filter(|k| signals[*k].part == part && signals[*k].flaw.is_none()).collect()
+    };
+    let set = |signals: &mut [Signal], which: &[usize], part| which.iter().for_each(|k| signals[*k].part = part);
+    if of(signals, Part::Actuator).is_empty() {
+        let key = |k: &usize| (signals[*k].is_reference, !signals[*k].is_table());
+        let full = |k: &usize| signals[*k].of.empty() == 0 || !signals[*k].is_reference;
+        let mut pool: Vec<usize> = of(signals, Part::Unknown).into_iter().filter(full).collect();
+        let first = pool.iter().map(key).min();
+        pool.retain(|k| Some(key(k)) == first);
+        let share = if first.is_some_and(|(is_reference, _)| is_reference) && of(signals, Part::Measured).is_empty() {
+            2
+        } else {
+            1
+        };
+        let count = pool.first().map_or(0, |k| (pool.len() / share).min(signals[*k].most()));
+        set(signals, &pool[..count], Part::Actuator);
+    }
+    if of(signals, Part::Measured).is_empty() {
+        let pool: Vec<usize> = of(signals, Part::Unknown).into_iter().filter(|k| signals[*k].is_reference).collect();
+        let count = pool.first().map_or(0, |k| pool.len().min(signals[*k].most()));
+        set(signals, &pool[..count], Part::Measured);
+    }
+    let (actuators, outputs) = (of(signals, Part::Actuator), of(signals, Part::Measured));
+    if actuators.is_empty() {
+        set(signals, &outputs[..outputs.len() / 2], Part::Actuator);
+    } else if outputs.is_empty() {
+        set(signals, &actuators[actuators.len().div_ceil(2)..], Part::Measured);
+    }
+}
