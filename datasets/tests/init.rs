@@ -10,7 +10,7 @@ use acm_datasets::recordings::{Options, Recordings};
 use acm_datasets::{DataError, init};
 
 /// Rows of each recording.
-const ROWS: usize = 120;
+const ROWS: usize = 250;
 
 /// What a folder is, and what its draft must be.
 struct Case {
@@ -23,11 +23,15 @@ struct Case {
     opened: Result<(&'static [&'static str], &'static str), &'static [&'static str]>,
 }
 
-/// Time in s, an angle in rad, and a length in m that follows it; another motion in each trial.
+/// Time in s, an angle in rad, and a length in m that follows it 80 ms later; another motion in each trial.
 fn motion(trial: usize, row: usize) -> [f64; 3] {
     let t = row as f64 / 50.0;
-    let q = 0.8 * (2.1 * t + trial as f64).sin() + 0.4 * ((3.3 + 0.4 * trial as f64) * t).sin();
-    [t, q, 0.25 * q.sin()]
+    let angle = |t: f64| {
+        let s = t + 40.0 * trial as f64;
+        0.8 * (1.7 * s + 2.0 * (0.23 * s).sin()).sin() + 0.4 * (2.9 * s + 2.5 * (0.31 * s).sin()).sin()
+    };
+    let noise = ((row * 7919 + trial * 104_729) % 1000) as f64 / 1000.0 - 0.5;
+    [t, angle(t), 0.25 * angle(t - 0.08).sin() + 2e-4 * noise]
 }
 
 fn write(folder: &Path, name: &str, text: &str) {
@@ -142,7 +146,7 @@ fn shared_log(folder: &Path) {
 fn trc(folder: &Path) {
     for (trial, name) in ["walk1", "walk2"].iter().enumerate() {
         let mut text = String::from(
-            "PathFileType\t4\t(X/Y/Z)\ta.trc\nDataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\n50\t50\t120\t2\tmm\n\
+            "PathFileType\t4\t(X/Y/Z)\ta.trc\nDataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\n50\t50\t250\t2\tmm\n\
              Frame#\tTime\tBase\t\t\tTip\t\t\n\t\tX1\tY1\tZ1\tX2\tY2\tZ2\n\n",
         );
         for row in 0..ROWS {
@@ -173,14 +177,15 @@ fn cases() -> Vec<Case> {
                 "time   = { column = \"Zeit\", unit = \"ms\" }",
             ],
             not: &["[[source]]", "# is this its unit"],
-            opened: Ok((&["a", "b", "c", "d", "e"], "Winkel rad > Weg mm")),
+            // [table] does not read it yet
+            opened: Err(&["separated by ';'"]),
         },
         Case {
             name: "one Parquet file with a column of trials",
             make: one_parquet,
             draft: &[
                 "trial  = { column = \"take\" }   # does it name the trials?",
-                "# \"mode\": always 4",
+                "# not used: \"mode\", always 4",
                 "held_out    = [\"take2\"]",
                 "# column = \"load\"",
             ],
@@ -193,7 +198,7 @@ fn cases() -> Vec<Case> {
             draft: &[
                 "files  = [\"data/chunk-000/episode_*.parquet\"]",
                 "trial  = { file = \"episode_(.*)\" }",
-                "# \"frame_index\": it counts",
+                "# not used: \"frame_index\", it counts",
                 "time   = { column = \"timestamp\", unit = \"s\" }   # is this its unit?",
             ],
             not: &[],
@@ -204,7 +209,7 @@ fn cases() -> Vec<Case> {
             make: stamps,
             draft: &["trial  = { column = \"run_text\" }"],
             not: &[],
-            opened: Ok((&["a", "b"], "")),
+            opened: Err(&["types.parquet: trial `a` has 1 samples in one stretch"]),
         },
         Case {
             name: "two files with two clocks",
@@ -232,7 +237,7 @@ fn cases() -> Vec<Case> {
             draft: &[
                 "format = \"trc\"",
                 "clock  = \"reference\"   # its samples are those of the trials",
-                "# \"trc.Base.Y\": always 0.5",
+                "# not used: \"trc.Base.Y\", always 0.5",
             ],
             not: &["time "],
             opened: Ok((
@@ -265,7 +270,7 @@ fn cases() -> Vec<Case> {
             draft: &[
                 "time   = { column = \"clock [s]\", unit = \"s\" }",
                 "# column = \"T\"",
-                "# \"n\": it counts",
+                "# not used: \"n\", it counts",
                 "name   = \"x\"",
             ],
             not: &["\"T\", unit"],
@@ -324,9 +329,9 @@ fn cases() -> Vec<Case> {
                 write(folder, "a.csv", &csv(header, 0, |_, [t, q, x]| format!("{t},{q},{x},{q},{x},{q},{x}")));
             },
             draft: &[
-                "# \"\": a column without a name: give it one in the header",
-                "# \"x\": the header has it twice: rename one",
-                "# \"note\\u0007\": its name has control characters: rename it",
+                "# not used: \"\", a column without a name: give it one in the header",
+                "# not used: \"x\", the header has it twice: rename one",
+                "# not used: \"note\\u0007\", its name has control characters: rename it",
             ],
             not: &[],
             opened: Err(&[]),
@@ -337,7 +342,7 @@ fn cases() -> Vec<Case> {
                 plain(folder, &["run_a.csv", "run_b.csv"]);
                 write(folder, "run_c.csv", &csv("t,q,x,hall", 2, |_, [t, q, x]| format!("{t},{q},{x},{q}")));
             },
-            draft: &["files  = [\"run_*.csv\"]", "# \"hall\": 1 of 3 files have it"],
+            draft: &["files  = [\"run_*.csv\"]", "# not used: \"hall\", 1 of 3 files have it"],
             not: &[],
             opened: Ok((&["a", "b", "c"], "q 1 > x 1")),
         },
@@ -376,7 +381,7 @@ fn wrong(case: &Case) -> Option<String> {
     std::fs::write(folder.path().join("manifest.toml"), &draft).expect("written");
     let opened = Recordings::open(folder.path(), None, &Options { window: Some(50), ..Options::default() });
     let opened = match (opened.map(|set| summary(&set)), &case.opened) {
-        (Ok(found), Ok((trials, signals))) if found.0 == *trials && (found.1 == *signals || signals.is_empty()) => None,
+        (Ok(found), Ok((trials, signals))) if found.0 == *trials && found.1 == *signals => None,
         (Err(error), Err(parts)) if parts.iter().all(|part| error.to_string().contains(part)) => None,
         (Ok(found), _) => Some(format!("holds {found:?}")),
         (Err(error), _) => Some(format!("refused: {error}")),

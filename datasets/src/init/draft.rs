@@ -116,11 +116,12 @@ fn clock_line(located: Option<Option<Located>>) -> String {
 
 fn write_signals(text: &mut String, signals: &[Signal], is_table: bool) {
     let of = |part: Part| signals.iter().filter(move |signal| signal.part == part && signal.flaw.is_none());
+    text.push('\n');
     for (part, table, question) in [
         (Part::Actuator, "actuator", "commanded, or read back from the drive,"),
         (Part::Measured, "measured", "an output of the robot, for a model to predict,"),
     ] {
-        let _ = writeln!(text, "\n# Is each of these {question} in this unit?");
+        let _ = writeln!(text, "# Is each of these {question} in this unit?");
         of(part).for_each(|signal| text.push_str(&signal_text(signal, table, is_table, "")));
         if of(part).next().is_none() {
             let _ = writeln!(text, "# No column is left for it: [[{table}]] needs `column` and `unit`.\n");
@@ -133,10 +134,11 @@ fn write_signals(text: &mut String, signals: &[Signal], is_table: bool) {
     of(Part::Unknown).skip(LISTED).for_each(|signal| {
         let _ = writeln!(text, "# {}", column(signal, is_table));
     });
-    for signal in signals {
-        if let Some(flaw) = &signal.flaw {
-            let _ = writeln!(text, "# not used: {}, {flaw}", column(signal, is_table));
-        }
+    for (signal, flaw) in signals.iter().filter_map(|signal| Some((signal, signal.flaw.as_ref()?))) {
+        let _ = writeln!(text, "# not used: {}, {flaw}", column(signal, is_table));
+    }
+    if !text.ends_with("\n\n") {
+        text.push('\n');
     }
 }
 
@@ -167,5 +169,5 @@ fn roles(mut trials: Vec<String>) -> String {
     let of = |trials: &[String]| list(trials.iter().map(String::as_str));
     let (trials, held_out) = (of(&trials), of(&held_out));
     let question = "# which trials calibrate the nominal model, and which test the result?";
-    format!("\n[roles]   {question}\ncalibration = []\ndevelopment = {trials}\nheld_out    = {held_out}\n")
+    format!("[roles]   {question}\ncalibration = []\ndevelopment = {trials}\nheld_out    = {held_out}\n")
 }

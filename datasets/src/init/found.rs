@@ -148,17 +148,17 @@ pub(super) fn folder(folder: &Path) -> Result<Folder, DataError> {
     let mut found = Folder::default();
     for depth in 0..=DEPTH {
         let paths = locate::matches(folder, &("*/".repeat(depth) + "*"));
-        let (mut files, mut left) = (Vec::new(), Vec::new());
         let looked: Vec<_> = paths.par_iter().map(|path| look_at(folder, path)).collect();
-        for (path, looked) in paths.iter().map(|path| path.to_string_lossy().into_owned()).zip(looked) {
+        found.paths = paths.iter().map(|path| path.to_string_lossy().into_owned()).collect();
+        let mut files = Vec::new();
+        for (path, looked) in found.paths.iter().zip(looked) {
             match looked {
                 Ok(file) => files.extend(file),
-                Err(reason) => left.push((path, reason)),
+                Err(reason) => found.left.push((path.clone(), reason)),
             }
         }
         files.sort_by(|a, b| natural::compare(&a.1.path, &b.1.path));
-        let sources = relate(groups(files), &mut left);
-        found = Folder { sources, left, paths: paths.iter().map(|path| path.to_string_lossy().into_owned()).collect() };
+        found.sources = relate(groups(files), &mut found.left);
         if !found.sources.is_empty() {
             break;
         }

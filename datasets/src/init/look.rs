@@ -250,12 +250,11 @@ impl Look {
 
     /// The period at which the value starts again at its other end.
     pub fn period(&self) -> Option<f64> {
-        let fits = |(period, (about, between)): (f64, (usize, usize))| {
-            let is_counter = period != PERIODS[0] && period != PERIODS[1];
+        let fits = |(period, (about, between)): &(f64, (usize, usize))| {
+            let is_kind = if *period < 10.0 { !self.whole } else { self.whole || *period == 360.0 };
             let fills = (0.75 * period..=1.001 * period).contains(&(self.high - self.low));
-            let moves = about > 0 && between == 0 && self.moves > 4 * about;
-            (fills && moves && (!is_counter || self.whole)).then_some(period)
+            is_kind && fills && *about > 0 && *between == 0 && self.moves > 4 * about
         };
-        PERIODS.into_iter().zip(self.wraps).find_map(fits)
+        PERIODS.into_iter().zip(self.wraps).find(fits).map(|(period, _)| period)
     }
 }

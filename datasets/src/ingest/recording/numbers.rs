@@ -124,7 +124,6 @@ impl Column<'_> {
 
     fn number(&self, i: usize, cell: Option<f64>, found: &mut Found) -> f64 {
         match cell {
-            Some(value) if value.is_nan() => self.absent(i, found),
             Some(value) if value.is_finite() => self.within(i, value, found),
             Some(value) => self.not_finite(i, &value.to_string(), found),
             None => self.absent(i, "", found),
