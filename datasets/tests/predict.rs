@@ -82,8 +82,15 @@ fn predictions_stand_beside_the_recordings_and_nothing_else_changes() {
     let folder = folder();
     let done = predict(folder.path(), "out", LINEAR).success();
     let said = str::from_utf8(&done.get_output().stdout).unwrap().to_string();
-    assert!(said.contains("360 rows") && said.contains("acm-eval") && said.contains("close-loop out
-"), "{said}");
+    assert!(
+        said.contains("360 rows")
+            && said.contains("acm-eval")
+            && said.contains(
+                "close-loop out
+"
+            ),
+        "{said}"
+    );
     assert_eq!(fs::read_to_string(folder.path().join("header")).unwrap(), "time,q,load,payload\n");
     let read = |name: &str| Campaign::read(&folder.path().join(name), None).unwrap();
     let (before, after) = (read("set"), read("out"));

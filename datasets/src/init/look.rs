@@ -228,10 +228,6 @@ impl Look {
         self.kind == Held::Text || (self.kind == Held::Number && self.whole)
     }
 
-    fn first(&self) -> &str {
-        self.runs.iter().flatten().next().map_or("", |(_, cell)| cell)
-    }
-
     /// Median step from value to value, where nine steps of ten are about as long.
     pub fn pace(&self) -> Option<f64> {
         let mut steps = self.steps.clone();
