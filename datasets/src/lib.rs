@@ -26,7 +26,6 @@ mod preprocessing;
 pub mod recordings;
 pub mod rig;
 pub mod sequences;
-pub mod sources;
 pub mod text;
 pub mod toml_file;
 mod trial;

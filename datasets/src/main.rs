@@ -120,18 +120,6 @@ enum Command {
         #[arg(last = true, required = true)]
         program: Vec<OsString>,
     },
-    /// Make a data set from published recordings.
-    ///
-    /// Example: acm-data import asl-trunk ~/trunk-stack --out my-trunk
-    Import {
-        /// Source of the data; `acm-data import list .` lists the known ones.
-        source: String,
-        /// Folder with the files as they were published, such as a clone of their repository.
-        clone: PathBuf,
-        /// Folder of the new data set.
-        #[arg(long, default_value = ".")]
-        out: PathBuf,
-    },
 }
 
 /// Below the options of `generate`.
@@ -203,7 +191,6 @@ fn run(command: Command, text: &mut String) -> Result<(), DataError> {
         Command::Init { folder } => commands::init::run(&folder, text),
         Command::Join { set, out } => commands::join::run(&set, &out, text),
         Command::Predict { set, out, program } => commands::predict::run(&set, &out, &program, text),
-        Command::Import { source, clone, out } => commands::import::run(&source, &clone, &out, text),
     }
 }
 

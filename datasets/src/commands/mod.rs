@@ -3,7 +3,6 @@
 pub mod check;
 pub mod describe;
 pub mod generate;
-pub mod import;
 pub mod init;
 pub mod join;
 pub mod predict;

@@ -4,7 +4,6 @@
 
 mod describe;
 mod fuzz;
-mod import;
 mod manifest;
 mod measured;
 mod parquet_types;
