@@ -49,7 +49,6 @@ mod average;
 mod channel;
 mod estimator;
 mod interval;
-mod labelled;
 mod labels;
 mod moved;
 mod nominal;

@@ -1,9 +1,14 @@
 //! Nominal models of an estimator.
 
+use std::ops::Range;
+
 use acm_core::NominalModel;
 use acm_core::augmented::{AugmentedModel, NeedsFuture, OnlineModel, Point, Sample, Snapshot};
+use acm_core::rig::Signal;
 use acm_core::tip_model::StrainModel;
 use serde::{Deserialize, Serialize};
+
+use crate::labels::Label;
 
 /// A nominal model.
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -53,6 +58,32 @@ impl Nominal {
             }
             Self::Given(outputs) => *outputs,
         }
+    }
+
+    /// Returns the labels of all inputs of a sample, of which `signals` are the first.
+    pub(crate) fn input_labels<'a>(&self, signals: impl Iterator<Item = &'a String>) -> Vec<Label> {
+        let known: Vec<&Signal> = match self {
+            Self::Augmented(model) => model.rig().actuators.iter().chain(&model.rig().contexts).collect(),
+            Self::Model(_) | Self::Given(_) => vec![],
+        };
+        let unit = |k: usize| known.get(k).map_or("", |signal| signal.unit.as_str());
+        let mut all: Vec<Label> = signals.enumerate().map(|(k, name)| Label::in_si(name, unit(k))).collect();
+        let axes = ["x", "y", "z"].iter().take(self.acceleration());
+        all.extend(axes.map(|axis| Label::in_si(format!("acceleration_{axis}"), "m/s^2")));
+        all.extend(self.output_labels(0..self.predicted()));
+        all
+    }
+
+    /// Returns the labels of some outputs.
+    pub(crate) fn output_labels(&self, outputs: Range<usize>) -> Vec<Label> {
+        let label = |o: usize| match self {
+            Self::Augmented(model) if o < model.rig().outputs.len() => {
+                let Signal { name, unit, .. } = &model.rig().outputs[o];
+                Label::in_si(name, unit)
+            }
+            _ => Label::in_si(format!("output_{o}"), ""),
+        };
+        outputs.map(label).collect()
     }
 
     /// Returns the number of components of the carrier's acceleration that each sample must include.

@@ -154,6 +154,15 @@ impl Parts {
         signals + self.nominal.acceleration() + self.nominal.predicted()
     }
 
+    /// Returns the labels; where the parts have none, those of the nominal model's signals.
+    pub fn labelled(&self) -> Labels {
+        let signals = self.signals.actuators.iter().chain(&self.signals.contexts);
+        self.labels.clone().unwrap_or_else(|| Labels {
+            inputs: self.nominal.input_labels(signals),
+            outputs: self.nominal.output_labels(self.tip.clone()),
+        })
+    }
+
     /// Returns the kernel of the network, if all parts fit.
     pub(crate) fn kernel(&self) -> Result<Kernel, PartsError> {
         let count = |what, found: usize, needed: usize| match found == needed {
