@@ -94,7 +94,7 @@ pub fn checked(data: &Recordings) -> String {
 /// What a gap is, where it is not half a second in all trials.
 fn gaps(data: &Recordings, given: Option<f64>, text: &mut String) {
     let Some(slowest) = data.entries.iter().max_by(|a, b| a.max_gap.total_cmp(&b.max_gap)) else { return };
-    let (longest, name) = (significant(slowest.max_gap, 4), &slowest.name);
+    let (longest, name) = (slowest.max_gap, &slowest.name);
     let _ = match given {
         Some(_) => writeln!(text, "gap: a step in time over {longest} s"),
         None if slowest.max_gap > max_gap(None, 0.0) => {

@@ -22,6 +22,7 @@ use nalgebra::DMatrix;
 
 use crate::campaign::Campaign;
 use crate::manifest::{self, PhysicalQuantity, Role};
+use crate::preprocessing::segments::median_step;
 use crate::trial::Trial;
 use crate::units::Unit;
 
@@ -108,13 +109,11 @@ fn moves(trial: &Trial) -> bool {
 
 /// Median time between samples, s; of an even number the lower middle one, and 0 where no trial has two samples.
 fn step(used: &[&Trial]) -> f64 {
-    let mut steps: Vec<f64> = Vec::new();
+    let (mut time, mut trials) = (Vec::new(), Vec::new());
     for trial in used {
-        steps.extend(trial.with_unmeasured().0.time.windows(2).map(|t| t[1] - t[0]));
+        let first = time.len();
+        time.extend_from_slice(&trial.with_unmeasured().0.time);
+        trials.push(first..time.len());
     }
-    if steps.is_empty() {
-        return 0.0;
-    }
-    let middle = (steps.len() - 1) / 2;
-    *steps.select_nth_unstable_by(middle, f64::total_cmp).1
+    median_step(&time, &trials)
 }

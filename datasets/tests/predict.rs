@@ -142,7 +142,7 @@ fn what_is_no_answer_is_refused_with_its_place() {
     refused(folder, 3, &["awk", "NR > 1 { print 1, (NR == 9 ? \"nan\" : 2) }"], &["sample 8", "NaN", "finite"]);
     refused(folder, 3, &["awk", "NR > 1 { print 1 }"], &["answered \"1\" to line 1", "2 numbers"]);
     refused(folder, 3, &["awk", "NR > 1 { print 1, 2 } END { exit 7 }"], &["ended with exit status: 7"]);
-    refused(folder, 3, &["awk", "NR == 40 { exit } NR > 1 { print 1, 2 }"], &["answered 38 of 119 lines"]);
+    refused(folder, 3, &["awk", "NR == 40 { exit } NR > 1 { print 1, 2 }"], &["answered 38 of 120 lines"]);
     refused(folder, 2, &["no-such-program"], &["no-such-program cannot be started"]);
     refused(folder, 2, &[], &["<PROGRAM>"]);
 }

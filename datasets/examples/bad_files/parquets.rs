@@ -47,7 +47,8 @@ fn cells() -> Vec<Case> {
     .into_iter()
     .enumerate()
     {
-        for (j, column) in COLUMNS.iter().enumerate() {
+        // NaN of an output is a lost marker
+        for (j, column) in COLUMNS.iter().enumerate().filter(|(_, column)| !value.is_nan() || **column != "y") {
             let row = [1, 30, 60][(j + k) % 3];
             let said = said(&[shown, "correct the cell"]).row(row).column(column);
             cases.push(case(&format!("{value} in column {column}, row {row}"), said, move |set| {

@@ -4,8 +4,6 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::hash::{DefaultHasher, Hasher};
 use std::path::PathBuf;
 
-use acm_core::display::significant;
-
 use crate::entry::Entry;
 use crate::error::{DataError, short};
 use crate::manifest::{Manifest, Role};
@@ -158,7 +156,7 @@ pub(crate) fn recorded(manifest: &Manifest, trials: &[Entry], problems: &mut Vec
 pub(crate) fn windows(trials: &[Entry], window: usize) -> Vec<DataError> {
     let used = trials.iter().filter(|t| matches!(t.role, Role::Development | Role::HeldOut));
     let short = used.filter(|t| t.samples >= LEAST_SAMPLES && t.longest < window);
-    let gap = |trial: &Entry| format!(" without a gap over {} s", significant(trial.max_gap, 4));
+    let gap = |trial: &Entry| format!(" without a gap over {} s", trial.max_gap);
     short.map(|trial| few(trial, trial.longest, window, gap(trial), " of a window")).collect()
 }
 

@@ -4,7 +4,6 @@
 
 use std::{collections::BTreeMap, ops::Range};
 
-use acm_core::display::significant;
 use acm_datasets::{
     Campaign, Channel, DropReason, Entry, Manifest, Role, Series, Trial, default_channels, domain_filter,
     levels::{self, Constant},
@@ -152,7 +151,7 @@ pub fn refuse_long_windows(
                      s",
                     asked.reach,
                     names::some(names, ", "),
-                    significant(asked.gap(), 4)
+                    asked.gap()
                 );
                 let left_out = |trial: &&Entry| trial.dropped.get(&DropReason::OutsideDomain).copied();
                 let outside: usize = trials().filter_map(left_out).sum();
