@@ -99,7 +99,7 @@ impl Series {
     #[must_use]
     pub fn begun(&self, before: &Before) -> Self {
         let record = before.ahead_of(&self.record);
-        Self { record, rows: self.rows.iter().map(|t| t + before.samples()).collect(), ..self.clone() }
+        Self { record, rows: self.rows.iter().map(|t| t + before.samples()).collect(), is_led: true, ..self.clone() }
     }
 
     /// Returns a series with every `every`-th sample of the record and every `fewer`-th of those that are compared.

@@ -126,6 +126,29 @@ fn lost_markers_are_counted_and_their_inputs_stay() {
     assert_eq!((last.samples(), last.recorded()), (8, 10), "the last of eleven samples has no output");
 }
 
+/// Steps of 100 s are no gaps, unless the gap is given.
+#[test]
+fn a_gap_is_relative_to_the_usual_step() {
+    let set = with_manifest("unit = \"ms\"", "unit = \"s\"");
+    let check = |gap: Option<f64>| Campaign::check(set.path(), None, 50, gap).map_err(|e| e.to_string());
+    assert!(check(None).is_ok_and(|read| read.entries(None)[0].max_gap == 500.0));
+    assert!(check(Some(0.5)).is_err_and(|text| text.contains("1 samples in one stretch without a gap over 0.5 s")));
+}
+
+/// Development trials a and b rest at two values; the others move.
+#[test]
+fn development_trials_at_rest_are_a_warning() {
+    let set = Set::new();
+    for (name, q, i) in [("a", 2.0, 0), ("b", 3.0, 1)] {
+        let mut rows = set::rows(i);
+        rows.iter_mut().for_each(|row| (row[1], row[2]) = (q, 20.0));
+        set.write(&format!("run_{name}.csv"), &set::csv(&rows));
+    }
+    let warns =
+        |set: &Set| set.campaign().warnings.iter().any(|text| text.contains("no development trial moves an actuator"));
+    assert!(warns(&set) && !warns(&Set::new()));
+}
+
 /// A spreadsheet's file: byte-order mark, CRLF, quotes, blanks, columns that nobody asked for, and a last line open.
 #[test]
 fn a_spreadsheets_csv_is_read() {
