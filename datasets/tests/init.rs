@@ -2,15 +2,16 @@
 
 #![allow(missing_docs)]
 
+#[path = "../examples/own_recordings.rs"]
+#[allow(dead_code)] // the example's main
+mod own_recordings;
+
 use std::fmt::Write;
 use std::path::Path;
 
-use acm_datasets::files::table::{Column, write_parquet};
 use acm_datasets::recordings::{Options, Recordings};
 use acm_datasets::{DataError, init};
-
-/// Rows of each recording.
-const ROWS: usize = 250;
+use own_recordings::{ROWS, csv, german, motion, numbers, one_parquet, parquet, write};
 
 /// What a folder is, and what its draft must be.
 struct Case {
@@ -23,66 +24,11 @@ struct Case {
     opened: Result<(&'static [&'static str], &'static str), &'static [&'static str]>,
 }
 
-/// Time in s, an angle in rad, and a length in m that follows it 80 ms later; another motion in each trial.
-fn motion(trial: usize, row: usize) -> [f64; 3] {
-    let t = row as f64 / 50.0;
-    let angle = |t: f64| {
-        let s = t + 40.0 * trial as f64;
-        0.8 * (1.7 * s + 2.0 * (0.23 * s).sin()).sin() + 0.4 * (2.9 * s + 2.5 * (0.31 * s).sin()).sin()
-    };
-    let noise = ((row * 7919 + trial * 104_729) % 1000) as f64 / 1000.0 - 0.5;
-    [t, angle(t), 0.25 * angle(t - 0.08).sin() + 2e-4 * noise]
-}
-
-fn write(folder: &Path, name: &str, text: &str) {
-    let path = folder.join(name);
-    std::fs::create_dir_all(path.parent().expect("a folder")).expect("made");
-    std::fs::write(path, text).expect("written");
-}
-
-/// A CSV whose rows are made of time, angle and length.
-fn csv(header: &str, trial: usize, row: impl Fn(usize, [f64; 3]) -> String) -> String {
-    let rows = (0..ROWS).map(|k| row(k, motion(trial, k)) + "\n");
-    format!("{header}\n{}", rows.collect::<String>())
-}
-
 /// Plain trials `t`, `q`, `x`.
 fn plain(folder: &Path, names: &[&str]) {
     for (trial, name) in names.iter().enumerate() {
         write(folder, name, &csv("t,q,x", trial, |_, [t, q, x]| format!("{t},{q},{x}")));
     }
-}
-
-fn parquet(folder: &Path, name: &str, columns: Vec<(&str, Column)>) {
-    std::fs::create_dir_all(folder.join(name).parent().expect("a folder")).expect("made");
-    let columns: Vec<(String, Column)> = columns.into_iter().map(|(name, column)| (name.to_string(), column)).collect();
-    write_parquet(&folder.join(name), &columns).expect("written");
-}
-
-fn numbers(trials: std::ops::Range<usize>, of: fn(usize, usize) -> f64) -> Column {
-    Column::Number(trials.flat_map(|trial| (0..ROWS).map(move |row| of(trial, row))).collect())
-}
-
-fn german(folder: &Path) {
-    for (trial, name) in ["a", "b", "c", "d", "e"].iter().enumerate() {
-        let comma = |value: f64| format!("{value:.6}").replace('.', ",");
-        let rows =
-            csv("Zeit;Winkel;Weg\nms;rad;mm", trial, |_, [t, q, x]| [1000.0 * t, q, 1000.0 * x].map(comma).join(";"));
-        write(folder, &format!("run_{name}.csv"), &rows);
-    }
-}
-
-fn one_parquet(folder: &Path) {
-    let names = (0..3).flat_map(|trial| vec![format!("take{trial}"); ROWS]).collect();
-    let columns = vec![
-        ("take", Column::Text(names)),
-        ("time", numbers(0..3, |trial, row| motion(trial, row)[0])),
-        ("cmd", numbers(0..3, |trial, row| motion(trial, row)[1])),
-        ("load", numbers(0..3, |trial, _| trial as f64 / 2.0)),
-        ("tip_mm", numbers(0..3, |trial, row| 1000.0 * motion(trial, row)[2])),
-        ("mode", numbers(0..3, |_, _| 4.0)),
-    ];
-    parquet(folder, "log.parquet", columns);
 }
 
 fn lerobot(folder: &Path) {
@@ -130,7 +76,7 @@ fn two_clocks(folder: &Path) {
 }
 
 fn shared_log(folder: &Path) {
-    let mut log = String::from("t;angle_1;volt\n");
+    let mut log = String::from("t;motor_1;pwm\n");
     for (trial, name) in ["1", "2", "3"].iter().enumerate() {
         let rows: String =
             (0..3 * ROWS).map(|k| motion(trial, k)).map(|[t, _, x]| format!("{t},{x},{}\n", x * x)).collect();
@@ -229,7 +175,7 @@ fn cases() -> Vec<Case> {
             make: shared_log,
             draft: &["shared = true   # does this one file hold all trials?", "trial  = { file = \"marker_(.*)\" }"],
             not: &[],
-            opened: Ok((&["1", "2", "3"], "log.angle_1 1, log.volt 1 > marker.x 1, marker.z 1")),
+            opened: Ok((&["1", "2", "3"], "log.motor_1 1, log.pwm 1 > marker.x 1, marker.z 1")),
         },
         Case {
             name: "markers as TRC",
@@ -325,7 +271,7 @@ fn cases() -> Vec<Case> {
         Case {
             name: "hostile columns",
             make: |folder| {
-                let header = "t,\"a, \"\"b\"\"\",x[0],,x,x,note\u{7}";
+                let header = "t,\"a, 'b'\",x[0],,x,x,note\u{7}";
                 write(folder, "a.csv", &csv(header, 0, |_, [t, q, x]| format!("{t},{q},{x},{q},{x},{q},{x}")));
             },
             draft: &[
@@ -334,7 +280,7 @@ fn cases() -> Vec<Case> {
                 "# not used: \"note\\u0007\", its name has control characters: rename it",
             ],
             not: &[],
-            opened: Err(&[]),
+            opened: Ok((&["a"], "a, 'b' 1 > x[0] 1")),
         },
         Case {
             name: "one more column in one file",
@@ -414,4 +360,16 @@ fn a_folder_without_recordings_is_refused_with_the_reason() {
     assert!(matches!(error, DataError::Usage(_)), "{error}");
     assert!(error.to_string().contains("run_a.csv: it has no rows of data"), "{error}");
     assert_eq!(init::manifest(&folder.path().join("none")).map(|_| ()).expect_err("no folder").exit_code(), 4);
+}
+
+#[test]
+fn the_recordings_of_the_tutorial_are_those_of_the_example() {
+    let folder = tempfile::tempdir().expect("a folder");
+    german(&folder.path().join("csv"));
+    one_parquet(&folder.path().join("parquet"));
+    for name in ["csv/run_a.csv", "csv/run_e.csv", "parquet/log.parquet"] {
+        let (made, kept) =
+            (std::fs::read(folder.path().join(name)), std::fs::read(Path::new("own-recordings").join(name)));
+        assert_eq!(made.expect("made"), kept.expect("kept"), "{name}: make it again by the example own_recordings");
+    }
 }

@@ -55,7 +55,7 @@ fn files(source: &Found, found: &Folder, is_table: bool, by: Option<&str>) -> St
     let patterns = list(names::patterns(&paths, &source.ends, &found.paths));
     let table = |path: &&str| !path.contains('/') && (path.ends_with(".csv") || path.ends_with(".parquet"));
     let ignored: Vec<&str> = found.left.iter().map(|(path, _)| path.as_str()).filter(table).collect();
-    let ignored = list(names::patterns(&ignored, &Default::default(), &[]));
+    let ignored = list(names::patterns(&ignored, &Default::default(), &found.paths));
     let (before, after) = &source.ends;
     let mut text = match is_table {
         true if ignored == "[]" => format!("\n[table]\nfiles  = {patterns}\n"),
