@@ -201,10 +201,7 @@ impl UnknownUnit {
     }
 
     fn suggestion(&self) -> String {
-        match self.name.to_lowercase().as_str() {
-            "degc" | "°c" | "c" | "celsius" => " (write \"K\": a constant offset changes no result)".into(),
-            _ => self.meant().map_or(String::new(), |name| format!(" (did you mean {name:?}?)")),
-        }
+        self.meant().map_or(String::new(), |name| format!(" (did you mean {name:?}?)"))
     }
 }
 

@@ -123,8 +123,7 @@ fn cases() -> Vec<Case> {
                 "time   = { column = \"Zeit\", unit = \"ms\" }",
             ],
             not: &["[[source]]", "# is this its unit"],
-            // [table] does not read it yet
-            opened: Err(&["separated by ';'"]),
+            opened: Ok((&["a", "b", "c", "d", "e"], "Winkel rad > Weg mm")),
         },
         Case {
             name: "one Parquet file with a column of trials",
@@ -155,7 +154,7 @@ fn cases() -> Vec<Case> {
             make: stamps,
             draft: &["trial  = { column = \"run_text\" }"],
             not: &[],
-            opened: Err(&["types.parquet: trial `a` has 1 samples in one stretch"]),
+            opened: Err(&["types.parquet: trial `a` has 30 samples in one stretch"]),
         },
         Case {
             name: "two files with two clocks",
@@ -237,6 +236,15 @@ fn cases() -> Vec<Case> {
             opened: Ok((&["a"], "col2 1 > col3 1")),
         },
         Case {
+            name: "time that stands still",
+            make: |folder| {
+                write(folder, "a.csv", &csv("t,q,x", 0, |k, [_, q, x]| format!("{},{q},{x}", k - k % 10 / 9)))
+            },
+            draft: &["time   = { column = \"t\", unit = \"s\" }   # is this its unit?"],
+            not: &[],
+            opened: Err(&["a.csv, row 11, column `t`"]),
+        },
+        Case {
             name: "stray files",
             make: |folder| {
                 plain(folder, &["run_a.csv", "run_b.csv", "run_c.csv"]);
@@ -251,7 +259,7 @@ fn cases() -> Vec<Case> {
                 "files  = [\"run_a.csv\", \"run_b.csv\", \"run_c.csv\"]",
                 "ignore = [\"gains.csv\", \"run_d.csv\", \"run_e.csv\"]",
                 "# \"run_d.csv\" is left out: it has no rows of data",
-                "# \"run_e.csv\" is left out: run_e.csv, row 2: a quotation mark is opened and never closed",
+                "# \"run_e.csv\" is left out: row 2: a quotation mark is opened in column",
             ],
             not: &["README", "png"],
             opened: Ok((&["a", "b", "c"], "q 1 > x 1")),
@@ -308,8 +316,7 @@ fn cases() -> Vec<Case> {
                 "counters = { \"motor ticks\" = 65536 }   # each starts again after so many",
             ],
             not: &[],
-            // the keys are not known yet
-            opened: Err(&[]),
+            opened: Ok((&["a", "b"], "motor angle deg, motor ticks 1 > x 1")),
         },
     ]
 }

@@ -68,7 +68,7 @@ fn times_have_a_unit() -> Result<(), DataError> {
     assert_eq!(in_ms, in_s);
     assert_eq!(right.implausible_step(&in_ms), None);
     let warning = wrong.implausible_step(&read_text(&text, &wrong, LABELS)?).expect("steps of 500 s");
-    for part in ["`t` has 500 s from sample to sample", "did you mean ms?", "time_unit"] {
+    for part in ["`t` has 500.0000 s from sample to sample", "did you mean ms?", "time_unit"] {
         assert!(warning.contains(part), "{part} in {warning}");
     }
     Ok(())

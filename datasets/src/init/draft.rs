@@ -150,7 +150,7 @@ fn column(signal: &Signal, is_table: bool) -> String {
 
 fn signal_text(signal: &Signal, table: &str, is_table: bool, comment: &str) -> String {
     let (column, unit) = (column(signal, is_table), signal.unit.unwrap_or("1"));
-    let question = if signal.unit.is_none() { "   # which unit?" } else { "" };
+    let question = if unit == "1" { "   # which unit?" } else { "" };
     let mut text =
         format!("{comment}[[{table}]]\n{comment}column = {column}\n{comment}unit   = {}{question}\n", quoted(unit));
     if let Some(name) = signal.plain_name() {

@@ -163,14 +163,21 @@ pub(super) fn folder(folder: &Path) -> Result<Folder, DataError> {
             break;
         }
     }
+    found.left.sort_by(|a, b| natural::compare(&a.0, &b.0));
     Ok(found)
 }
 
 /// A recording; none for a file of another kind, and the reason where it cannot be used.
 fn look_at(folder: &Path, path: &Path) -> Result<Option<(Format, File)>, String> {
     let said = |e: DataError| {
-        let message = e.to_string().replace(&format!("{}/", folder.display()), "");
-        message.lines().next().unwrap_or_default().to_string()
+        let problems = e.problems();
+        let more =
+            if problems.len() > 1 { format!(" (and {} more problems)", problems.len() - 1) } else { String::new() };
+        let first = problems.first().map_or(String::new(), ToString::to_string).replace('\n', " ");
+        let at = [folder.join(path), path.to_path_buf()]
+            .iter()
+            .find_map(|at| first.strip_prefix(&format!("{}", at.display())));
+        at.map_or(first.as_str(), |rest| rest.trim_start_matches([',', ':', ' '])).to_string() + &more
     };
     let Some(name) = path.to_str().filter(|name| !name.contains(char::is_control)) else {
         return Err("its name has control characters or is not UTF-8: rename it".into());
@@ -257,12 +264,20 @@ fn relate(mut groups: Vec<Found>, left: &mut Vec<(String, String)>) -> Vec<Found
     sources
 }
 
-/// One file of each group: what all names share is the trial.
+/// One file of each group: what all names share is the trial. A name that shares neither its first nor its last word is that of a log.
 fn name_apart(groups: &mut [Found]) {
-    let stems: Vec<String> = groups.iter().map(|found| found.files[0].stem().to_string()).collect();
-    let stems: Vec<&str> = stems.iter().map(String::as_str).collect();
+    let all: Vec<String> = groups.iter().map(|found| found.files[0].stem().to_string()).collect();
+    let ends = |stem: &str| {
+        let words: Vec<String> = stem.split(|c: char| !c.is_alphanumeric()).map(str::to_string).collect();
+        (words.first().cloned(), words.last().cloned())
+    };
+    let shares = |stem: &&String| {
+        let own = ends(stem);
+        all.iter().filter(|other| other != stem).map(|other| ends(other)).any(|end| end.0 == own.0 || end.1 == own.1)
+    };
+    let stems: Vec<&str> = all.iter().filter(shares).map(String::as_str).collect();
     let (before, after) = names::split(&stems, &|_| true);
-    for (found, stem) in groups.iter_mut().zip(&stems) {
+    for (found, stem) in groups.iter_mut().zip(&all).filter(|(_, stem)| stems.contains(&stem.as_str())) {
         found.ends = match (before.len(), after.len()) {
             (1.., _) => (String::new(), stem[before.len() - 1..].to_string()),
             (_, 1..) => (stem[..=stem.len() - after.len()].to_string(), String::new()),

@@ -5,7 +5,7 @@
 use std::path::Path;
 
 use super::names;
-use crate::error::DataError;
+use crate::error::{DataError, Problems};
 use crate::formats::{self, Format, Keep};
 use crate::ingest::recording::csv::Csv;
 use crate::ingest::recording::csv::decimal::Decimal;
@@ -39,12 +39,13 @@ pub(super) struct Look {
     pub high: f64,
     /// All numbers are integers.
     pub whole: bool,
-    /// Rows whose value is not above the one before; none where they are too many.
+    /// Rows whose value is below the one before; none where they are too many.
     pub falls: Option<Vec<usize>>,
     /// Rows where runs of equal cells begin, and those cells; none where they are too many.
     pub runs: Option<Vec<(usize, String)>>,
     texts: usize,
     moves: usize,
+    stays: usize,
     steps: Vec<f64>,
     /// Of each of [`PERIODS`]: steps of about a period, and steps between a quarter and three quarters of one.
     wraps: [(usize, usize); 5],
@@ -70,8 +71,11 @@ fn csv(path: &Path) -> Result<Vec<Look>, DataError> {
     let numbers = csv.names.iter().filter(|name| !name.is_empty()).map(|name| (name.clone(), true)).collect();
     let wanted = Wanted { numbers, ..Wanted::default() };
     // numbers that can mean two things are asked for by `check`
-    let points = || open(&Wanted { decimal: Some('.'), ..Wanted::default() })?.read(&wanted, &mut Vec::new());
-    let read = csv.read(&wanted, &mut Vec::new()).or_else(|_| points())?;
+    let commas = || open(&Wanted { decimal: Some(','), ..Wanted::default() })?.read(&wanted, &mut Vec::new());
+    let read = match csv.read(&wanted, &mut Vec::new()) {
+        Err(DataError::NoRows { .. }) => return Ok(csv.names.iter().map(|name| Look::new(name, None)).collect()),
+        read => read.or_else(|_| commas())?,
+    };
     let unit = |name: &String| csv.units.as_ref().and_then(|units| units.get(name)).map(String::as_str);
     let look = |name: &String| {
         let Cells::Text(texts) = read.cells.get(name)? else { return None };
@@ -81,7 +85,8 @@ fn csv(path: &Path) -> Result<Vec<Look>, DataError> {
         let dates = (look.kind == Held::Text).then(|| dates(&csv, name)).flatten();
         Some(dates.unwrap_or(look))
     };
-    Ok(csv.names.iter().filter_map(look).collect())
+    // a column that cannot be asked for is listed without its values
+    Ok(csv.names.iter().map(|name| look(name).unwrap_or_else(|| Look::new(name, None))).collect())
 }
 
 /// A column of dates or times of day.
@@ -108,8 +113,11 @@ fn parquet(path: &Path) -> Result<Vec<Look>, DataError> {
     for wanted in wanted.iter().filter(|wanted| !wanted.numbers.is_empty() || wanted.label.is_some()) {
         let (file, _) = DataFile::open(path, Some(Format::Parquet), wanted, false)?;
         for piece in 0..file.pieces() {
-            // single cells that are wrong are found by `check`
-            let Some(read) = file.read(piece, &mut Vec::new()) else { continue };
+            let mut problems = Vec::new();
+            let Some(read) = file.read(piece, &mut problems) else {
+                Problems(problems).into_result()?;
+                continue;
+            };
             for look in &mut looks {
                 let clock = wanted.time.as_ref().filter(|time| time.column == look.name).and(read.ticks.as_ref());
                 let label = wanted.label.as_ref().filter(|label| **label == look.name).and(read.labels.as_ref());
@@ -154,6 +162,7 @@ impl Look {
             runs: Some(Vec::new()),
             texts: 0,
             moves: 0,
+            stays: 0,
             steps: Vec::new(),
             wraps: [(0, 0); 5],
             last: None,
@@ -193,12 +202,13 @@ impl Look {
     }
 
     fn step(&mut self, step: f64) {
-        if step <= 0.0 {
+        if step < 0.0 {
             self.falls = self.falls.take().filter(|rows| rows.len() < LISTED);
             let row = self.rows - 1;
             self.falls.iter_mut().for_each(|rows| rows.push(row));
         }
         self.moves += usize::from(step != 0.0);
+        self.stays += usize::from(step == 0.0);
         if self.steps.len() < STEPS {
             self.steps.push(step);
         }
@@ -237,11 +247,13 @@ impl Look {
         (10 * alike >= 9 * steps.len()).then_some(median)
     }
 
-    /// Whether the value rises from row to row, but for the rows where a trial begins and, if damage is allowed for, one in a hundred.
+    /// Whether the value rises from row to row, but for the rows where a trial begins. A damaged clock may fall in one row of a
+    /// hundred, and stand still in half of them.
     pub fn rises(&self, starts: &[usize], damaged: bool) -> bool {
         let Some(falls) = &self.falls else { return false };
         let count = falls.iter().filter(|row| starts.binary_search(row).is_err()).count();
-        self.rows > self.empty + 1 && (count == 0 || (damaged && 100 * count <= self.rows.max(200)))
+        let (falls, stays) = if damaged { (self.rows.max(200) / 100, self.rows / 2) } else { (0, 0) };
+        self.rows > self.empty + 1 && count <= falls && self.stays <= stays
     }
 
     /// The period at which the value starts again at its other end.

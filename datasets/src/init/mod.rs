@@ -25,9 +25,10 @@ use crate::error::DataError;
 pub fn manifest(folder: &Path) -> Result<String, DataError> {
     let mut found = found::folder(folder)?;
     if found.sources.is_empty() {
-        let left = found.left.iter().map(|(path, reason)| format!("; {path}: {reason}")).collect::<String>();
-        let message =
-            format!("{}: there are no recordings{left}; put the files there, and try again", folder.display());
+        let left: String = found.left.iter().take(3).map(|(path, reason)| format!("; {path}: {reason}")).collect();
+        let more = found.left.len().saturating_sub(3);
+        let more = if more > 0 { format!("; and {more} more files") } else { String::new() };
+        let message = format!("{}: no recordings can be read{left}{more}", folder.display());
         return Err(DataError::Usage(message));
     }
     let reference = &found.sources[0];

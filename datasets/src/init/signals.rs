@@ -70,6 +70,12 @@ fn told(name: &str) -> Part {
     if names::any(&words, NEITHER) { Part::Unknown } else { part }
 }
 
+/// As [`told`]; a name that says nothing is what its group's is.
+fn told_of(source: &Found, name: &str) -> Part {
+    let silent = told(name) == Part::Unknown && !names::any(&names::words(name), NEITHER);
+    told(if silent { &source.name } else { name })
+}
+
 /// Commands less measurements, by the names of a group and of its columns.
 pub(super) fn commands(found: &Found) -> i32 {
     let vote = |name: &str| match told(name) {
@@ -132,8 +138,9 @@ impl Column<'_> {
 impl<'a> Signal<'a> {
     fn new(source: &'a Found, of: Column<'a>, is_reference: bool) -> Signal<'a> {
         let (flaw, said) = (of.flaw(), of.looks.iter().find_map(|look| look.unit.as_deref()));
-        let open = flaw.is_some() || (told(of.name) == Part::Actuator && of.empty() > 0);
-        let part = if open { Part::Unknown } else { told(of.name) };
+        let told = told_of(source, of.name);
+        let open = flaw.is_some() || (told == Part::Actuator && of.empty() > 0);
+        let part = if open { Part::Unknown } else { told };
         let period = of.looks.iter().find_map(|look| look.period());
         let (period, unit) = match (period, said) {
             (Some(360.0), None) => (period, Some("deg")),

@@ -246,7 +246,7 @@ const CASES: &[Case] = &[
             s.edit("manifest.toml", "[\"c\"]", "[]").edit("manifest.toml", "[\"d\"]", "[]");
         },
         3,
-        &["error: poses.csv, column `name`: 200 of the 200 trials", "leave `trial` out of [table]", "rate_hz"],
+        &["poses.csv, column `name`: 200 of the 200 trials", "leave `trial` out of [table]", "rate_hz"],
     ),
     (
         "trial without a role",

@@ -198,7 +198,8 @@ fn a_first_manifest_is_accepted_or_questioned() {
         "time   = { column = \"t\", unit = \"s\" }",
         "files  = [\"flight.ulg\"]\nformat = \"ulog\"\nshared = true",
         "column = \"mocap.Tip.Position.X\"\nunit   = \"mm\"",
-        "development = [\"a\", \"b\", \"c\"]",
+        "[[actuator]]\ncolumn = \"motors.q1\"",
+        "development = [\"a\", \"b\"]",
     ] {
         assert!(draft.contains(part), "{part:?} in\n{draft}");
     }
@@ -220,7 +221,7 @@ fn a_log_beside_a_single_take_is_shared() {
     assert_eq!(code, 0, "{text}");
     let draft = lab.read("manifest.toml");
     assert!(draft.contains("files  = [\"flight.ulg\"]\nformat = \"ulog\"\nshared = true"), "{draft}");
-    assert!(draft.contains("files  = [\"*_motors.csv\"]"), "{draft}");
+    assert!(draft.contains("files  = [\"a_motors.csv\"]"), "{draft}");
     lab.write("manifest.toml", &draft.replace("shared = true", "# shared = true"));
     let (code, text) = run(&["check".as_ref(), folder.as_ref()]);
     assert!(code == 3 && text.contains("set `shared = true`"), "{text}");
