@@ -233,6 +233,12 @@ pub enum DataError {
     #[error("{path}: not supported: {what}; {remedy}")]
     Unsupported { path: PathBuf, what: String, remedy: &'static str },
 
+    #[error(
+        "{path}, row {row}: the time of source `{of}` jumps to {at} s{more}, and its other rows are from {from} s to {to} s; correct \
+         the time stamps, or split the file where the clock was set"
+    )]
+    SourceJump { path: PathBuf, of: String, row: usize, at: f64, from: f64, to: f64, more: More },
+
     #[error("{0}")]
     NoHull(String),
 
@@ -315,6 +321,7 @@ impl DataError {
             | DataError::TimeReversed { more, .. }
             | DataError::TimeStill { more, .. }
             | DataError::DuplicateRow { more, .. }
+            | DataError::SourceJump { more, .. }
             | DataError::RaggedRow { more, .. } => Some(more),
             _ => None,
         }

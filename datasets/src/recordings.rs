@@ -114,7 +114,9 @@ impl Recordings {
             files,
             spans,
         };
-        let beside = locate::warnings(&set.folder, &unmatched, &packed);
+        let mut beside = locate::warnings(&set.folder, &unmatched, &packed);
+        let left_out = set.plan.iter().flat_map(|plan| &plan.left_out);
+        beside.extend(left_out.map(|(trial, why)| format!("trial `{trial}` is excluded, and left out: {why}")));
         set.read_all(options, problems, beside)?;
         Ok(set)
     }

@@ -7,6 +7,9 @@
 #[allow(dead_code)] // used by another test
 #[path = "../examples/bad_files/good.rs"]
 mod good;
+#[allow(dead_code)] // used by another test
+#[path = "sources/lab.rs"]
+mod lab;
 #[path = "../examples/fuzz_files/mutate.rs"]
 mod mutate;
 #[path = "../examples/bad_files/parquet_bytes.rs"]
@@ -22,6 +25,8 @@ use target::Target;
 
 #[test]
 fn files_in_order_are_read() {
+    let read = acm_datasets::Campaign::read(&lab::Lab::of(2, 8.0).path(), None).expect("read");
+    assert_eq!((read.trials.len(), read.alignments.len()), (2, 6));
     for target in [Target::Csv, Target::Parquet] {
         for (i, bytes) in target.corpus().expect("a corpus").iter().enumerate() {
             let set = good::Set::new().expect("a folder");

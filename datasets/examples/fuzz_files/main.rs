@@ -1,8 +1,10 @@
 //! Damages CSV files, Parquet files, manifests and recordings at random, and reads them: each must give a data set or a message.
 //!
 //! ```text
-//! cargo run -p acm-datasets --example fuzz_files -- [--count N] [--seed S] [--from K] [--target csv|parquet|manifest|motive|vicon|trc|ulog|mcap]
+//! cargo run -p acm-datasets --example fuzz_files -- [--count N] [--seed S] [--from K] [--target NAME]
 //! ```
+//!
+//! NAME: csv, parquet, manifest, motive, vicon, trc, ulog, mcap; sources-csv, sources-motive, sources-ulog: one file of a set of sources.
 //!
 //! Damage K of a seed is always the same. What fails is kept in `fuzz-<target>-<seed>-<number>` in the current folder; in
 //! `tests/regressions` it is read by a test from then on.
@@ -12,6 +14,9 @@
 #[allow(dead_code)] // used by another example
 #[path = "../bad_files/good.rs"]
 mod good;
+#[allow(dead_code)] // used by a test
+#[path = "../../tests/sources/lab.rs"]
+mod lab;
 mod mutate;
 #[path = "../bad_files/parquet_bytes.rs"]
 mod parquet_bytes;

@@ -1,15 +1,23 @@
-//! What is read, and what must hold for whatever is read: a data set or a message, no panic, no more than 4 kB.
+//! What is read, and what must hold for whatever is read: a data set or a message of at most 4 kB, no panic, and little memory.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
 
-use acm_datasets::Campaign;
 use acm_datasets::formats::{self, Format, Keep};
+use acm_datasets::{Campaign, DataError};
 use polars_core::prelude as polars;
 use polars_io::prelude::{ParquetCompression, ParquetWriter};
 
 use crate::good::{COLUMNS, MANIFEST, Set, csv, parquet, rows};
+use crate::lab::Lab;
 use crate::parquet_bytes::Claims;
 use crate::recordings;
+
+/// Bytes that reading a set may hold.
+const MOST: u64 = 200_000_000;
+
+/// Seconds of a take of several sources.
+const SECONDS: f64 = 8.0;
 
 /// A kind of file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -22,10 +30,12 @@ pub enum Target {
     Trc,
     Ulog,
     Mcap,
+    /// One file of a set of several sources.
+    Sources(Format),
 }
 
 impl Target {
-    pub const ALL: [Target; 8] = [
+    pub const ALL: [Target; 11] = [
         Target::Csv,
         Target::Parquet,
         Target::Manifest,
@@ -34,6 +44,9 @@ impl Target {
         Target::Trc,
         Target::Ulog,
         Target::Mcap,
+        Target::Sources(Format::Csv),
+        Target::Sources(Format::Motive),
+        Target::Sources(Format::Ulog),
     ];
 
     pub fn name(self) -> &'static str {
@@ -41,6 +54,9 @@ impl Target {
             Target::Csv => "csv",
             Target::Parquet => "parquet",
             Target::Manifest => "manifest",
+            Target::Sources(Format::Motive) => "sources-motive",
+            Target::Sources(Format::Ulog) => "sources-ulog",
+            Target::Sources(_) => "sources-csv",
             other => other.format().map_or("", Format::name),
         }
     }
@@ -63,6 +79,9 @@ impl Target {
             Target::Csv => "data/run_b.csv",
             Target::Parquet => "data/run_p.parquet",
             Target::Manifest => "data/manifest.toml",
+            Target::Sources(Format::Motive) => "a_mocap.csv",
+            Target::Sources(Format::Ulog) => "flight.ulg",
+            Target::Sources(_) => "a_motors.csv",
             _ => "data/recording",
         }
     }
@@ -91,6 +110,10 @@ impl Target {
             Target::Trc => Ok(recordings::trc()),
             Target::Ulog => Ok(recordings::ulog()),
             Target::Mcap => Ok(recordings::mcap()),
+            Target::Sources(_) => {
+                let text = std::fs::read(Lab::of(2, SECONDS).path().join(self.file()))?;
+                Ok(vec![text])
+            }
         }
     }
 
@@ -99,26 +122,42 @@ impl Target {
         if let Some(format) = self.format() {
             return recording_wrong(format, bytes);
         }
+        if let Target::Sources(_) = self {
+            let lab = Lab::of(2, SECONDS);
+            std::fs::write(lab.path().join(self.file()), bytes)?;
+            return Ok(set_wrong(&lab.path(), |code| code == 3));
+        }
         let set = Set::new()?;
         set.write(self.file(), bytes)?;
-        let read = catch_unwind(AssertUnwindSafe(|| Campaign::check(&set.path(), None, 50, 0.5)));
-        Ok(match read {
-            Err(_) => Some("it panicked".into()),
-            Ok(Ok(campaign)) => {
-                let finite =
-                    campaign.trials.iter().all(|t| t.measured.iter().chain(&t.actuators).all(|v| v.is_finite()));
-                (!finite).then(|| "a value is not finite".into())
-            }
-            Ok(Err(error)) => {
-                let (code, text) = (error.exit_code(), error.to_string());
-                let fits = match self {
-                    Target::Manifest => matches!(code, 2..=4),
-                    _ => code == 3,
-                };
-                (!fits || text.is_empty() || text.len() > 4096)
-                    .then(|| format!("code {code}, {} bytes: {text:.300}", text.len()))
-            }
-        })
+        Ok(set_wrong(&set.path(), |code| if self == Target::Manifest { matches!(code, 2..=4) } else { code == 3 }))
+    }
+}
+
+/// Reads a set; what does not hold. Its exit code, if it is refused, is to fit.
+fn set_wrong(folder: &Path, fits: impl Fn(u8) -> bool) -> Option<String> {
+    let mut read = Ok(Err(DataError::Usage(String::new())));
+    let check = || {
+        let count = |read: &mut _| {
+            *read = catch_unwind(AssertUnwindSafe(|| Campaign::check(folder, None, 50, 0.5)));
+        };
+        allocation_counter::measure(|| count(&mut read)).bytes_max
+    };
+    // allocations are counted by thread
+    let held = rayon::ThreadPoolBuilder::new().num_threads(1).build().ok()?.install(check);
+    if held > MOST {
+        return Some(format!("it held {held} bytes"));
+    }
+    match read {
+        Err(_) => Some("it panicked".into()),
+        Ok(Ok(campaign)) => {
+            let finite = campaign.trials.iter().all(|t| t.measured.iter().chain(&t.actuators).all(|v| v.is_finite()));
+            (!finite).then(|| "a value is not finite".into())
+        }
+        Ok(Err(error)) => {
+            let (code, text) = (error.exit_code(), error.to_string());
+            let wrong = !fits(code) || text.is_empty() || text.len() > 4096;
+            wrong.then(|| format!("code {code}, {} bytes: {text:.300}", text.len()))
+        }
     }
 }
 

@@ -74,11 +74,12 @@ pub(crate) fn repeated(trials: &[Whole], entries: &[Entry]) -> Vec<String> {
 pub(crate) fn names(
     manifest: &Manifest,
     source: &TomlSource,
+    left_out: Vec<&str>,
     wholes: &[Whole],
     trials: &[Entry],
     problems: &mut Vec<DataError>,
 ) {
-    let read: Vec<&str> = wholes.iter().map(|whole| whole.name.as_str()).collect();
+    let read: Vec<&str> = wholes.iter().map(|whole| whole.name.as_str()).chain(left_out).collect();
     let parts: Vec<&str> = trials.iter().map(|t| t.name.as_str()).collect();
     let (is_read, is_part): (BTreeSet<&str>, BTreeSet<&str>) =
         (read.iter().copied().collect(), parts.iter().copied().collect());

@@ -13,6 +13,7 @@ use nalgebra::DMatrix;
 
 use crate::checks::{periodic, suspect};
 use crate::ingest::layout::{Layout, Source};
+use crate::join::jump::longest_pause;
 use crate::manifest::{Manifest, Role};
 use crate::preprocessing::segments::usual_step;
 use crate::trial::Trial;
@@ -60,9 +61,6 @@ const QUATERNION: f64 = 1.01;
 /// Steps in time that recordings have, s.
 const STEPS: std::ops::RangeInclusive<f64> = 2e-5..=10.0;
 
-/// A pause beyond an hour, and a thousand times the usual step, is a clock that was set.
-const LONGEST_PAUSE: f64 = 3600.0;
-
 /// Summary of a trial: range of each signal, and clock.
 #[derive(Debug)]
 pub(crate) struct Seen {
@@ -72,9 +70,10 @@ pub(crate) struct Seen {
     samples: usize,
     /// Least and greatest value of the actuators, the context signals, the outputs and the vehicle, in this order.
     ranges: Vec<(f64, f64)>,
-    /// The usual step, and the longest one with its ends, s.
+    /// The usual step, s.
     step: f64,
-    pause: Option<(f64, f64, f64)>,
+    /// The longest step, its ends, s, and the row behind it.
+    pause: Option<(f64, f64, f64, usize)>,
     /// Its time has a type, and so a unit, of its own.
     typed_time: bool,
     /// Suspicious samples.
@@ -91,7 +90,7 @@ impl Seen {
         };
         let (whole, _) = trial.with_unmeasured();
         let time = &whole.time;
-        let steps = time.windows(2).map(|t| (t[1] - t[0], t[0], t[1]));
+        let steps = trial.time.windows(2).zip(rows.iter().skip(1)).map(|(t, row)| (t[1] - t[0], t[0], t[1], *row));
         Seen {
             trial: trial.name.clone(),
             file: trial.file.clone(),
@@ -321,10 +320,9 @@ fn clock(layout: &Layout, trial: &Seen) -> Option<String> {
         ));
     };
     let place = format!("{}: column `{}` of trial `{}`", trial.file.display(), source.column, trial.trial);
-    let longest = LONGEST_PAUSE.max(1000.0 * step);
-    if let Some((length, from, to)) = trial.pause.filter(|(length, _, _)| *length > longest) {
+    if let Some((length, from, to, row)) = trial.pause.filter(|(length, ..)| *length > longest_pause(step)) {
         return Some(format!(
-            "{place} jumps by {} s, from {from} s to {to} s; if the clock was set, correct it or split the trial",
+            "{place} jumps by {} s in row {row}, from {from} s to {to} s; if the clock was set, correct it or split the trial",
             number(length)
         ));
     }

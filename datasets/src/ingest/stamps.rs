@@ -49,6 +49,13 @@ impl Stamps<'_> {
         found
     }
 
+    /// Whether it is a counter that starts again.
+    pub fn starts_again(&self) -> bool {
+        let starts =
+            |i: usize| self.raw.and_then(|raw| rollover(raw[(self.index)(i - 1)], raw[(self.index)(i)])).is_some();
+        (1..self.time.len()).any(starts)
+    }
+
     fn problem(&self, first: usize, second: usize) -> DataError {
         let (before, after, row) = (self.time[first], self.time[second], (self.row)(second));
         let (path, column, more) = (self.path.to_path_buf(), self.column.to_string(), More::default());

@@ -34,7 +34,7 @@ pub(super) fn located(folder: &Path, reference: &Found, outputs: &[String], sour
     let of_source = series(&folder.join(&source.file(trial)?.path), source, candidates(source).into_iter())?;
     let r: Vec<Named> = of_reference.iter().map(|(name, series)| (name.as_str(), series)).collect();
     let s: Vec<Named> = of_source.iter().map(|(name, series)| (name.as_str(), series)).collect();
-    let found = estimate(&r, &s, &Request { around: None, drift: Some(0.0) }).ok()?;
+    let found = estimate(&r, &s, &Request { drift: Some(0.0), ..Request::default() }).ok()?;
     Some(Located {
         by: [format!("{}.{}", reference.name, found.reference), format!("{}.{}", source.name, found.source)],
         found: format!("correlation {:.2} in trial {}, t {:+.3} s", found.correlation, quoted(trial), found.offset),

@@ -10,12 +10,14 @@ use crate::ingest::locate;
 use crate::manifest::Source;
 use crate::text::natural;
 
-/// Each trial of the reference with a file of each source.
+/// Each trial of the reference with a file of each source; an excluded one that lacks a file goes to `left_out`.
 pub(super) fn trials(
     sources: &[Source],
     reference: usize,
     folder: &Path,
     places: &[String],
+    excluded: &[String],
+    left_out: &mut BTreeMap<String, String>,
     problems: &mut Vec<DataError>,
 ) -> Vec<(String, Vec<PathBuf>)> {
     let found: Vec<BTreeMap<String, PathBuf>> =
@@ -24,7 +26,11 @@ pub(super) fn trials(
     names.sort_by(|a, b| natural::compare(a, b));
     let mut unjoined = |i: usize, trial: &str, what: &str| {
         let (at, trial, of) = (places[i].clone(), trial.to_string(), sources[i].name.clone());
-        problems.push(DataError::Unjoined { at, trial, of, what: what.to_string() });
+        let problem = DataError::Unjoined { at, trial: trial.clone(), of, what: what.to_string() };
+        match excluded.contains(&trial) {
+            true => drop(left_out.insert(trial, problem.to_string())),
+            false => problems.push(problem),
+        }
     };
     for (i, files) in found.iter().enumerate().filter(|(i, _)| !sources[*i].shared) {
         for trial in files.keys().filter(|trial| !found[reference].contains_key(*trial)) {

@@ -10,6 +10,7 @@
 
 pub(crate) mod clock;
 mod files;
+pub(crate) mod jump;
 mod plan;
 mod quality;
 mod resample;

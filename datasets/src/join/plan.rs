@@ -11,9 +11,9 @@ use super::files;
 use super::series::median;
 use super::signals::{self, Axis, Signals};
 use crate::checks::periodic::{self, Column, Place};
-use crate::error::{DataError, Problems};
+use crate::error::{DataError, Problems, short};
 use crate::ingest::periodic::unwrap;
-use crate::manifest::{Manifest, Source, Word};
+use crate::manifest::{ByTrial, Manifest, Source, Word};
 use crate::toml_file::TomlSource;
 use crate::units::Unit;
 
@@ -36,6 +36,10 @@ pub(crate) struct Plan {
     periods: BTreeMap<String, f64>,
     /// Name and files of each trial, a file for each source.
     trials: Vec<(String, Vec<PathBuf>)>,
+    /// Trials that take no part.
+    excluded: Vec<String>,
+    /// Those of them that cannot be joined, and why.
+    pub left_out: BTreeMap<String, String>,
     /// Signals of the files that hold all trials.
     shared: Vec<OnceLock<Arc<Signals>>>,
     /// Clock alignment of each trial that could be aligned.
@@ -64,7 +68,12 @@ impl Plan {
         let units = manifest.signal_columns().into_iter().map(|(_, _, column, unit)| (column, unit)).collect();
         let places: Vec<String> =
             (0..sources.len()).map(|i| toml.place(&["source", &i.to_string(), "offset"])).collect();
-        let trials = files::trials(&sources, reference, folder, &places, problems);
+        let (excluded, mut left_out, before) = (manifest.roles.excluded.clone(), BTreeMap::new(), problems.len());
+        let trials = files::trials(&sources, reference, folder, &places, &excluded, &mut left_out, problems);
+        if problems.len() == before {
+            let known = trials.iter().map(|(name, _)| name).chain(left_out.keys()).map(String::as_str).collect();
+            problems.extend(unknown_trials(&sources, toml, &known));
+        }
         let (shared, aligned) = (sources.iter().map(|_| OnceLock::new()).collect(), Vec::new());
         let folder = folder.to_path_buf();
         let (notes, warnings) = (Vec::new(), Vec::new());
@@ -78,6 +87,8 @@ impl Plan {
             units,
             periods,
             trials,
+            excluded,
+            left_out,
             shared,
             aligned,
             notes,
@@ -102,25 +113,49 @@ impl Plan {
         self.aligned.iter().flatten().flatten().cloned().collect()
     }
 
-    /// Brings all clocks to the reference's; what is wrong goes to `problems`.
+    /// Brings all clocks to the reference's; what is wrong goes to `problems`, and of an excluded trial to what is left out.
     pub fn align(&mut self, problems: &mut Vec<DataError>) {
+        if let Err(error) = self.read_shared() {
+            self.aligned = vec![None; self.len()];
+            return problems.extend(error.problems());
+        }
         let found: Vec<_> = (0..self.len()).into_par_iter().map(|trial| self.align_trial(trial)).collect();
-        let mut notes = BTreeSet::new();
-        for found in found {
-            match found {
+        let (mut notes, mut kept) = (BTreeSet::new(), Vec::new());
+        for (trial, found) in std::mem::take(&mut self.trials).into_iter().zip(found) {
+            let aligned = match found {
                 Ok((alignments, of_trial, warnings)) => {
-                    self.aligned.push(Some(alignments));
                     self.warnings.extend(warnings);
                     notes.extend(of_trial);
+                    Some(alignments)
+                }
+                Err(error) if self.excluded.contains(&trial.0) => {
+                    self.left_out.insert(trial.0, error.problems().first().map_or(String::new(), DataError::to_string));
+                    continue;
                 }
                 Err(error) => {
-                    self.aligned.push(None);
                     problems.extend(error.problems());
+                    None
                 }
-            }
+            };
+            self.aligned.push(aligned);
+            kept.push(trial);
         }
+        self.trials = kept;
         self.notes = notes.into_iter().collect();
         (0..self.sources.len()).for_each(|source| self.common(source));
+    }
+
+    /// Reads the files that hold all trials once, before the trials are read side by side.
+    fn read_shared(&self) -> Result<(), DataError> {
+        let Some((_, files)) = self.trials.first() else { return Ok(()) };
+        let mut problems = Vec::new();
+        for i in (0..self.sources.len()).filter(|i| self.sources[*i].shared) {
+            match self.read_source(i, &files[i]) {
+                Ok(signals) => drop(self.shared[i].set(signals)),
+                Err(error) => problems.extend(error.problems()),
+            }
+        }
+        Problems(problems).into_result()
     }
 
     /// How the clocks stand, notes and warnings.
@@ -132,7 +167,8 @@ impl Plan {
         let (name, mut alignments, mut problems) =
             (&self.trials[trial].0, Vec::new(), self.other_units(trial, &signals));
         for (i, source) in self.sources.iter().enumerate() {
-            let both = Both { reference, source: &signals[i], compared: self.compared(i) };
+            let (compared, same_quantity) = (self.compared(i), self.is_same_quantity(i));
+            let both = Both { reference, source: &signals[i], compared, same_quantity };
             match align(name, source, &both, start.copied().unwrap_or(0.0)) {
                 Ok(alignment) => alignments.push(alignment),
                 Err(what) => {
@@ -197,45 +233,50 @@ impl Plan {
         }
     }
 
-    /// One offset for all trials, where the manifest asks for it: the median, with the interval of the mean of as many.
+    /// Whether `by` names two columns of one dimension.
+    fn is_same_quantity(&self, source: usize) -> bool {
+        let by = self.sources[source].offset.as_ref().map(|offset| offset.table().by).unwrap_or_default();
+        let dimension = |full: &String| Some(Unit::parse(self.units.get(full)?).ok()?.dimension);
+        matches!(by.as_slice(), [a, b] if dimension(a).is_some() && dimension(a) == dimension(b))
+    }
+
+    /// One offset for all trials, where the manifest asks for it: the median, with the interval of the mean of as many. A lag is the same
+    /// in all of them.
     fn common(&mut self, source: usize) {
         let asked = self.sources[source].offset.as_ref().map(|offset| offset.table().estimate);
-        if asked != Some(Some(Word::Common)) {
+        let trials = self.trials.iter().zip(&self.aligned).filter(|((name, _), _)| !self.excluded.contains(name));
+        let all: Vec<&Alignment> = trials.filter_map(|(_, aligned)| Some(&aligned.as_ref()?[source])).collect();
+        if asked != Some(Some(Word::Common)) || all.is_empty() {
             return;
         }
-        let all: Vec<&Alignment> = self.aligned.iter().flatten().map(|trial| &trial[source]).collect();
-        let offsets: Vec<f64> = all.iter().map(|alignment| alignment.offset).collect();
-        let (count, middle) = (offsets.len(), median(&offsets));
-        let spread: Vec<f64> = offsets.iter().map(|offset| (offset - middle).abs()).collect();
-        let own = median(&all.iter().map(|alignment| alignment.interval).collect::<Vec<_>>());
-        let interval = (1.96 * 1.4826 * median(&spread)).max(own) / (count.max(1) as f64).sqrt();
+        let of = |part: &dyn Fn(&Alignment) -> f64| all.iter().map(|one| part(one)).collect::<Vec<f64>>();
+        let (count, middle) = (all.len(), median(&of(&|one| one.offset)));
+        let (lag, largest) = (median(&of(&Alignment::seen_lag)), median(&of(&|one| one.lag.0)));
+        let own = median(&of(&|one| one.interval - one.seen_lag()));
+        let spread = 1.96 * 1.4826 * median(&of(&|one| (one.offset - middle).abs()));
+        let interval = spread.max(own) / (count as f64).sqrt() + lag;
         for trial in self.aligned.iter_mut().flatten() {
             let alignment = &mut trial[source];
             (alignment.offset, alignment.interval, alignment.how) = (middle, interval, How::Common(count));
+            alignment.lag = (largest, lag > 0.0);
         }
     }
 
     /// Signals of each source's file of a trial.
     pub(super) fn read_signals(&self, trial: usize) -> Result<Vec<Arc<Signals>>, DataError> {
         let (mut all, mut problems) = (Vec::new(), Vec::new());
-        for (i, source) in self.sources.iter().enumerate() {
-            if let Some(signals) = self.shared[i].get() {
-                all.push(signals.clone());
-                continue;
-            }
-            let path = self.folder.join(&self.trials[trial].1[i]);
-            match signals::read(&path, source, &self.columns[i]) {
-                Ok(signals) => {
-                    let signals = Arc::new(self.unwrapped(source, signals));
-                    if source.shared {
-                        let _ = self.shared[i].set(signals.clone());
-                    }
-                    all.push(signals);
-                }
+        for (i, file) in self.trials[trial].1.iter().enumerate() {
+            match self.shared[i].get().cloned().map_or_else(|| self.read_source(i, file), Ok) {
+                Ok(signals) => all.push(signals),
                 Err(error) => problems.extend(error.problems()),
             }
         }
         Problems(problems).into_result().map(|()| all)
+    }
+
+    fn read_source(&self, i: usize, file: &Path) -> Result<Arc<Signals>, DataError> {
+        let signals = signals::read(&self.folder.join(file), &self.sources[i], &self.columns[i])?;
+        Ok(Arc::new(self.unwrapped(&self.sources[i], signals)))
     }
 
     fn unwrapped(&self, source: &Source, mut signals: Signals) -> Signals {
@@ -271,6 +312,24 @@ impl Plan {
     pub(super) fn unit(&self, name: &str) -> Option<String> {
         self.units.get(name).cloned()
     }
+}
+
+/// Trials that an offset names and the files do not have.
+fn unknown_trials(sources: &[Source], toml: &TomlSource, known: &BTreeSet<&str>) -> Vec<DataError> {
+    let mut problems = Vec::new();
+    let names = short(&known.iter().copied().collect::<Vec<_>>().join(" "), 400);
+    for (i, source) in sources.iter().enumerate() {
+        let Some(offset) = source.offset.as_ref().map(crate::manifest::Offset::table) else { continue };
+        for (key, numbers) in [("value", &offset.value), ("around", &offset.around)] {
+            let named = numbers.iter().flat_map(ByTrial::numbers).filter_map(|(trial, _)| trial);
+            for trial in named.filter(|trial| !known.contains(trial)) {
+                let at = toml.place(&["source", &i.to_string(), "offset", key, trial]);
+                let (section, trial, known) = ("[[source]] offset", trial.to_string(), names.clone());
+                problems.push(DataError::UnknownTrial { at, section, trial, known });
+            }
+        }
+    }
+    problems
 }
 
 /// The names that are columns of a source.

@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
+use super::jump;
 use super::series::Series;
 use crate::error::{DataError, Problems};
 use crate::formats::{self, Format, Keep};
@@ -52,12 +53,12 @@ pub fn read(path: &Path, source: &Source, columns: &BTreeSet<String>) -> Result<
     };
     match format.is_table() {
         true => table(path, source, format, columns),
-        false => take(path, format, columns),
+        false => take(path, source, format, columns),
     }
 }
 
 /// Motion capture and logs.
-fn take(path: &Path, format: Format, columns: &BTreeSet<String>) -> Result<Signals, DataError> {
+fn take(path: &Path, source: &Source, format: Format, columns: &BTreeSet<String>) -> Result<Signals, DataError> {
     let take = formats::read(path, format, Keep::Named(columns))?;
     let mut signals = Signals { format: Some(format), notes: take.notes.clone(), ..Signals::default() };
     signals.notes.extend(take.lost.iter().map(|what| format!("LOST: {what}")));
@@ -69,13 +70,14 @@ fn take(path: &Path, format: Format, columns: &BTreeSet<String>) -> Result<Signa
             continue;
         }
         let log = matches!(format, Format::Ulog | Format::Mcap);
-        let order = increasing(&group.time);
+        let row = |i: usize| group.first_row + i;
         if !log {
-            check_order(path, "time", &group.time, None, None, &|i| group.first_row + i)?;
+            check_order((path, source), "time", &group.time, None, None, &row)?;
         }
+        let order = jump::in_order(&group.time, log).map_err(|jump| jump.of(path, &source.name, group.first_row))?;
         if order.len() < group.time.len() {
             let (name, count) = (&group.name, group.time.len() - order.len());
-            signals.notes.push(format!("`{name}`: {count} samples that go back in time are left out"));
+            signals.notes.push(format!("`{name}`: {count} samples whose time goes back or jumps are left out"));
         }
         let axis = signals.axes.len();
         let time = order.iter().map(|i| group.time[*i]).collect();
@@ -121,7 +123,7 @@ fn table(path: &Path, source: &Source, format: Format, columns: &BTreeSet<String
     let seconds = seconds(&read, time, counts);
     let name = time.column.as_deref().unwrap_or("time");
     let (raw, row) = (read.numbers.get(name).filter(|_| read.ticks.is_none()), |i| read.row(i));
-    check_order(path, name, &seconds, raw.map(Vec::as_slice), read.ticks.as_ref(), &row)?;
+    check_order((path, source), name, &seconds, raw.map(Vec::as_slice), read.ticks.as_ref(), &row)?;
     signals.axes.push(Axis { time: seconds, first_row: read.first_row });
     for column in columns {
         let values = read.numbers.remove(column).unwrap_or_default();
@@ -151,21 +153,9 @@ fn seconds(read: &Recording, time: &Time, counts: bool) -> Vec<f64> {
     read.numbers.get(column).into_iter().flatten().map(to_seconds).collect()
 }
 
-/// Indices of the samples whose time is later than all before.
-fn increasing(time: &[f64]) -> Vec<usize> {
-    let mut latest = f64::NEG_INFINITY;
-    (0..time.len())
-        .filter(|i| {
-            let later = time[*i] > latest;
-            latest = latest.max(time[*i]);
-            later
-        })
-        .collect()
-}
-
-/// Time of a table increases.
+/// Time of a table increases and does not jump; a counter that starts again is no jump.
 fn check_order(
-    path: &Path,
+    (path, source): (&Path, &Source),
     column: &str,
     time: &[f64],
     raw: Option<&[f64]>,
@@ -173,7 +163,11 @@ fn check_order(
     row: &dyn Fn(usize) -> usize,
 ) -> Result<(), DataError> {
     let (index, repeats) = (&|i| i, &|_, _| false);
-    Problems(Stamps { path, column, time, raw, ticks, row, index, repeats }.check()).into_result()
+    let stamps = Stamps { path, column, time, raw, ticks, row, index, repeats };
+    if !stamps.starts_again() {
+        jump::in_order(time, false).map_err(|jump| jump.of(path, &source.name, row(0)))?;
+    }
+    Problems(stamps.check()).into_result()
 }
 
 /// Columns that the file does not have.

@@ -16,7 +16,7 @@ use acm_core::nominal::NominalSpec;
 use serde::{Deserialize, Serialize};
 
 pub use arm::{Actuation, Arm, Registration, Strain};
-pub use source::{Clock, Drift, DriftTable, Offset, OffsetTable, Source, Sources, Word};
+pub use source::{ByTrial, Clock, Drift, DriftTable, Offset, OffsetTable, Source, Sources, Word};
 
 use crate::error::{DataError, Problems};
 use crate::join::Rule;

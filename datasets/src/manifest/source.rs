@@ -79,20 +79,30 @@ pub enum Word {
     Common,
 }
 
+/// `0.12`, or `{ run_1 = 0.12, run_2 = 3.4 }`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(untagged, expecting = "a number, or numbers by trial such as { run_1 = 0.12, run_2 = 3.4 }, is expected")]
+pub enum ByTrial {
+    /// One number for all trials.
+    All(f64),
+    /// Numbers by the names of trials.
+    Each(BTreeMap<String, f64>),
+}
+
 /// `{ value, unit }`, `{ event, above, reference, reference_above }` or `{ estimate = "estimate", by, around, within }`.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct OffsetTable {
     /// Given, in `unit`.
-    pub value: Option<f64>,
+    pub value: Option<ByTrial>,
     /// Unit of `value`.
     pub unit: Option<String>,
     /// Estimated: `estimate` or `common`.
     pub estimate: Option<Word>,
     /// The columns that are compared, `[reference's, source's]`; all where it is omitted.
     pub by: Vec<String>,
-    /// It is looked for around this offset, s.
-    pub around: Option<f64>,
+    /// It is looked for around this offset, s; everywhere in trials without one.
+    pub around: Option<ByTrial>,
     /// Longest distance from it, s.
     pub within: Option<f64>,
     /// Column of this source that rises at an event.
@@ -121,6 +131,24 @@ pub enum Drift {
 pub struct DriftTable {
     /// Parts per million.
     pub ppm: f64,
+}
+
+impl ByTrial {
+    /// The number of a trial.
+    pub fn of(&self, trial: &str) -> Option<f64> {
+        match self {
+            ByTrial::All(number) => Some(*number),
+            ByTrial::Each(numbers) => numbers.get(trial).copied(),
+        }
+    }
+
+    /// The named trials with their numbers, or the number of all.
+    pub fn numbers(&self) -> Vec<(Option<&str>, f64)> {
+        match self {
+            ByTrial::All(number) => vec![(None, *number)],
+            ByTrial::Each(numbers) => numbers.iter().map(|(trial, number)| (Some(trial.as_str()), *number)).collect(),
+        }
+    }
 }
 
 impl Offset {

@@ -90,7 +90,8 @@ impl Recordings {
         let (manifest, source) = (&self.manifest, &self.source);
         if complete {
             // after a file that could not be read, every name in it would be unknown
-            consistency::names(manifest, source, &wholes, &self.entries, &mut problems);
+            let left_out = self.plan.iter().flat_map(|plan| plan.left_out.keys()).map(String::as_str).collect();
+            consistency::names(manifest, source, left_out, &wholes, &self.entries, &mut problems);
             consistency::recorded(manifest, &self.entries, &mut problems);
         }
         consistency::folds(manifest, source, &self.entries, &mut problems);

@@ -3,7 +3,6 @@
 #![allow(missing_docs)]
 
 mod describe;
-mod fuzz;
 mod manifest;
 mod measured;
 mod parquet_types;

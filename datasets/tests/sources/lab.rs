@@ -81,13 +81,18 @@ pub fn volt(k: usize, t: f64) -> f64 {
 
 impl Lab {
     pub fn new() -> Lab {
-        let lab = Lab(tempfile::tempdir().expect("a folder"));
-        lab.write("manifest.toml", MANIFEST);
-        for (k, name) in ["a", "b", "c"].iter().enumerate() {
-            lab.write(&format!("{name}_mocap.csv"), &mocap(k));
-            lab.write(&format!("{name}_motors.csv"), &motors(k));
+        Lab::of(3, SECONDS)
+    }
+
+    /// So many takes of so many seconds.
+    pub fn of(takes: usize, seconds: f64) -> Lab {
+        let (lab, names) = (Lab(tempfile::tempdir().expect("a folder")), &["a", "b", "c"][..takes]);
+        lab.write("manifest.toml", &MANIFEST.replace("[\"a\", \"b\", \"c\"]", &format!("{names:?}")));
+        for (k, name) in names.iter().enumerate() {
+            lab.write(&format!("{name}_mocap.csv"), &mocap(k, seconds));
+            lab.write(&format!("{name}_motors.csv"), &motors(k, seconds));
         }
-        std::fs::write(lab.path().join("flight.ulg"), flight()).expect("written");
+        std::fs::write(lab.path().join("flight.ulg"), flight(takes, seconds)).expect("written");
         lab
     }
 
@@ -109,12 +114,12 @@ impl Lab {
 }
 
 /// A body at 120 Hz, in millimetres, with an occlusion.
-fn mocap(k: usize) -> String {
+fn mocap(k: usize, seconds: f64) -> String {
     let mut text = String::from(
         "Format Version,1.23,Take Name,x,Capture Frame Rate,120,Export Frame Rate,120,Rotation Type,XYZ,Length Units,Millimeters\n\n\
          ,Type,Rigid Body,Rigid Body\n,Name,Tip,Tip\n,ID,\"1\",\"1\"\n,,Position,Position\nFrame,Time (Seconds),X,Y\n",
     );
-    for frame in 0..(SECONDS * 120.0) as usize {
+    for frame in 0..(seconds * 120.0) as usize {
         let t = frame as f64 / 120.0;
         let cell = if (1000..1000 + OCCLUDED).contains(&frame) {
             String::new()
@@ -127,9 +132,9 @@ fn mocap(k: usize) -> String {
 }
 
 /// Commands at 50 Hz: they begin before the take, pause for half a second, and end two seconds before it.
-fn motors(k: usize) -> String {
+fn motors(k: usize, seconds: f64) -> String {
     let mut text = String::from("t,q1,q2\n");
-    for i in 0..(50.0 * SECONDS) as usize {
+    for i in 0..(50.0 * seconds) as usize {
         let t = -2.0 + i as f64 / 50.0;
         if (20.0..20.5).contains(&t) {
             continue;
@@ -140,12 +145,12 @@ fn motors(k: usize) -> String {
 }
 
 /// One log of all takes at 100 Hz, with still stretches between them.
-fn flight() -> Vec<u8> {
+fn flight(takes: usize, seconds: f64) -> Vec<u8> {
     let mut log = Log::new();
-    for i in 0..(150.0 * 100.0) as usize {
+    for i in 0..(100.0 * (seconds - log_offset(takes - 1) - 10.0)) as usize {
         let u = 45.0 + i as f64 / 100.0;
-        let k = (0..3).rev().find(|k| u + log_offset(*k) >= -2.0).unwrap_or(0);
-        let t = (u + log_offset(k)).clamp(-2.0, SECONDS + 2.0);
+        let k = (0..takes).rev().find(|k| u + log_offset(*k) >= -2.0).unwrap_or(0);
+        let t = (u + log_offset(k)).clamp(-2.0, seconds + 2.0);
         log.pose(3, (u * 1e6).round() as u64, motion(k, t) as f32);
         if i % 10 == 0 {
             log.power((u * 1e6).round() as u64, 16.0 - 0.01 * u);

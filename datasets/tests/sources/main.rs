@@ -110,6 +110,21 @@ fn what_does_not_fit_together_is_refused() {
         ),
         (
             "offset = \"estimate\"\ndrift",
+            "offset = { value = { a = 0.7, b = 0.713 }, unit = \"s\" }\ndrift",
+            &["trial `c`, source `motors`: `value` in `offset` lacks this trial"],
+        ),
+        (
+            "offset = \"estimate\"\ndrift",
+            "offset = { estimate = \"estimate\", around = { a = 0.7, d = 0.7 }, within = 0.1 }\ndrift",
+            &["manifest.toml:17:62", "names trial `d`", "the trials are a b c"],
+        ),
+        (
+            "offset = \"estimate\"\ndrift",
+            "offset = { value = { a = nan }, unit = \"s\" }\ndrift",
+            &["manifest.toml:17:22", "the offset is NaN"],
+        ),
+        (
+            "offset = \"estimate\"\ndrift",
             "offset = \"guess\"\ndrift",
             &["unknown variant `guess`", "estimate", "manifest.toml:"],
         ),
@@ -153,9 +168,42 @@ fn what_is_wrong_in_a_file_is_told_with_its_row() {
     lab.write("b_motors.csv", &text.replace(second, "1,98; 0,5"));
     let message = open(&lab).map(|_| ()).expect_err("refused");
     assert!(message.contains("b_motors.csv") && message.contains("row 102"), "{message}");
+    for (at, stamp) in [(102, "1764411111"), (102, "-1e5"), (2, "1e4"), (1481, "1e6")] {
+        let lines = text.lines().enumerate().map(|(i, line)| match (i + 1 == at, line.split_once(',')) {
+            (true, Some((_, rest))) => format!("{stamp},{rest}\n"),
+            _ => format!("{line}\n"),
+        });
+        lab.write("b_motors.csv", &lines.collect::<String>());
+        let (code, said) = run(&["check".as_ref(), lab.path().as_ref()]);
+        let expected =
+            format!("b_motors.csv, row {at}: the time of source `motors` jumps to {}", stamp.parse::<f64>().unwrap());
+        assert!(code == 3 && said.replace(['\n', '│'], " ").contains(&expected), "{expected} in {said}");
+    }
 }
 
-/// One offset for all trials, an event, and a given one.
+/// Of a trial that takes no part, nothing is asked.
+#[test]
+fn an_excluded_trial_blocks_nothing() {
+    let spoil: [&dyn Fn(&Lab); 4] = [
+        &|lab| std::fs::remove_file(lab.path().join("c_motors.csv")).expect("removed"),
+        &|lab| lab.write("c_motors.csv", &lab.read("c_motors.csv").replacen("\n-1.", "\n1764411111.", 1)),
+        &|lab| lab.write("c_motors.csv", "t,q1,q2\n0,1,2\n1,1,2\n"),
+        &|lab| lab.write("c_mocap.csv", "no take"),
+    ];
+    for (i, spoil) in spoil.iter().enumerate() {
+        let lab = Lab::new();
+        spoil(&lab);
+        assert!(open(&lab).is_err(), "{i}");
+        let roles = "[\"a\", \"b\"]\nexcluded = [\"c\"]";
+        lab.write("manifest.toml", &Lab::manifest().replace("[\"a\", \"b\", \"c\"]", roles));
+        let data = open(&lab).expect("opened");
+        assert_eq!((data.entries.len(), data.alignments.len()), (2, 6), "{i}");
+        let warned = data.warnings.iter().any(|warning| warning.contains("trial `c` is excluded, and left out: "));
+        assert!(warned, "{i}: {:?}", data.warnings);
+    }
+}
+
+/// One offset for all trials, an event, a given one, and one for each trial.
 #[test]
 fn an_offset_may_be_common_given_or_an_event() {
     let lab = Lab::new();
@@ -164,6 +212,16 @@ fn an_offset_may_be_common_given_or_an_event() {
     let data = open(&lab).expect("opened");
     let motors: Vec<_> = data.alignments.iter().filter(|a| a.source == "motors").collect();
     assert!(motors.iter().all(|a| a.offset == 0.7 && a.interval == 0.0 && a.how == How::Given), "{motors:?}");
+    for offset in [
+        "{ value = { a = 0.7, b = 0.713, c = -0.4 }, unit = \"s\" }",
+        "{ estimate = \"estimate\", around = { a = 0.7, b = 0.713, c = -0.4 }, within = 0.01 }",
+    ] {
+        lab.write("manifest.toml", &Lab::manifest().replacen("\"estimate\"", offset, 1));
+        let data = open(&lab).expect("opened");
+        for (k, motors) in data.alignments.iter().filter(|a| a.source == "motors").enumerate() {
+            assert!((motors.offset - lab::motors_offset(k)).abs() < 0.005, "{motors}");
+        }
+    }
     let common = Lab::manifest().replacen("offset = \"estimate\"", "offset = \"common\"", 1);
     lab.write("manifest.toml", &common);
     let data = open(&lab).expect("opened");

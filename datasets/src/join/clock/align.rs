@@ -19,8 +19,10 @@ pub struct Alignment {
     pub source: String,
     /// Added to the source's time at its time `origin`, s.
     pub offset: f64,
-    /// Half of the offset's 95 % interval, s; 0 of a given one.
+    /// Half of the offset's 95 % interval, s; 0 of a given one. Where a lag is part of the offset, it contains it.
     pub interval: f64,
+    /// Time constant of the largest lag that may be part of an estimated offset, s, and whether there is one.
+    pub lag: (f64, bool),
     /// Relative rate of the clocks less one, 1.
     pub drift: f64,
     /// Half of its 95 % interval, 1; 0 of a given one.
@@ -70,6 +72,11 @@ impl Alignment {
         self.origin + self.offset + (time - self.origin) * (1.0 + self.drift)
     }
 
+    /// The lag that the interval contains, s.
+    pub(crate) fn seen_lag(&self) -> f64 {
+        if self.lag.1 { self.lag.0 } else { 0.0 }
+    }
+
     /// Whether it was estimated from what was recorded: then it contains what dead time there is.
     pub fn is_estimated(&self) -> bool {
         matches!(self.how, How::Estimated { .. } | How::Common(_))
@@ -91,15 +98,22 @@ impl fmt::Display for Alignment {
             How::Same => {}
             How::Given => write!(f, " (given)")?,
             How::Event => write!(f, " (from an event)")?,
-            How::Common(trials) => {
-                write!(f, " (median of the estimates of {trials} trials; a dead time is part of it)")?;
+            How::Common(trials) => write!(f, " (median of the estimates of {trials} trials; {})", part(self.lag))?,
+            How::Estimated { reference, column, correlation } => {
+                let from = format!("`{column}` and `{reference}`, correlation {correlation:.2}");
+                write!(f, " (estimated from {from}; {})", part(self.lag))?;
             }
-            How::Estimated { reference, column, correlation } => write!(
-                f,
-                " (estimated from `{column}` and `{reference}`, correlation {correlation:.2}; a dead time is part of it)"
-            )?,
         }
         write!(f, " · {:.1} Hz onto {:.1} Hz · overlap {:.2} s", self.rates.1, self.rates.0, self.overlap)
+    }
+}
+
+/// What an estimated offset contains beside the clock's.
+fn part((constant, is_seen): (f64, bool)) -> String {
+    let most = if constant.is_finite() { format!("up to {:.0} ms", 1e3 * constant) } else { "unknown size".into() };
+    match is_seen {
+        true => format!("a dead time is part of it, and so is a lag of {most}, which the interval covers"),
+        false => format!("a dead time is part of it, and a lag of {most} may be"),
     }
 }
 
@@ -109,6 +123,8 @@ pub struct Both<'a> {
     pub source: &'a Signals,
     /// Compared columns of the reference and of the source.
     pub compared: (Vec<String>, Vec<String>),
+    /// They are of one quantity.
+    pub same_quantity: bool,
 }
 
 /// Brings a source's clock to the reference's.
@@ -118,6 +134,7 @@ pub fn align(trial: &str, source: &Source, both: &Both, start: f64) -> Result<Al
         source: source.name.clone(),
         offset: 0.0,
         interval: 0.0,
+        lag: (0.0, false),
         drift: 0.0,
         drift_interval: 0.0,
         origin: start,
@@ -133,7 +150,10 @@ pub fn align(trial: &str, source: &Source, both: &Both, start: f64) -> Result<Al
     };
     if source.clock != Some(Clock::Same) && !source.is_reference() {
         let offset = source.offset.as_ref().map(crate::manifest::Offset::table).unwrap_or_default();
-        if let Some(value) = offset.value {
+        if let Some(value) = &offset.value {
+            let value = value
+                .of(trial)
+                .ok_or("`value` in `offset` lacks this trial; add it, or exclude the trial in [roles]")?;
             let unit = offset.unit.as_deref().and_then(|unit| Unit::parse(unit).ok());
             found.offset = unit.map_or(value, |unit| unit.to_si(value));
             found.how = How::Given;
@@ -169,13 +189,14 @@ fn estimated(found: &mut Alignment, offset: &OffsetTable, drift: Option<f64>, bo
     }
     let r: Vec<Named> = references.iter().map(|(name, series)| (name.as_str(), series)).collect();
     let s: Vec<Named> = sources.iter().map(|(name, series)| (name.as_str(), series)).collect();
-    let around = match (offset.around, offset.within) {
-        (None, None) => None,
-        (middle, within) => Some((middle.unwrap_or(0.0), within.unwrap_or(f64::INFINITY))),
+    let around = match (offset.around.as_ref().map(|around| around.of(&found.trial)), offset.within) {
+        (None, None) | (Some(None), _) => None,
+        (middle, within) => Some((middle.flatten().unwrap_or(0.0), within.unwrap_or(f64::INFINITY))),
     };
-    let estimate = estimate(&r, &s, &Request { around, drift }).map_err(|refusal| refusal.to_string())?;
+    let estimate = estimate(&r, &s, &Request { around, drift, same_quantity: both.same_quantity })
+        .map_err(|refusal| refusal.to_string())?;
     (found.offset, found.interval, found.origin) = (estimate.offset, estimate.interval, estimate.origin);
-    (found.drift, found.drift_interval) = (estimate.drift, estimate.drift_interval);
+    (found.drift, found.drift_interval, found.lag) = (estimate.drift, estimate.drift_interval, estimate.lag);
     let (reference, column, correlation) = (estimate.reference, estimate.source, estimate.correlation);
     found.how = How::Estimated { reference, column, correlation };
     Ok(())

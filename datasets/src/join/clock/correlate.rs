@@ -8,10 +8,18 @@
 //! | `r`, `s` | rates of reference and source on a grid of step g | 1/s |
 //! | `l` | offset, in steps | 1 |
 //!
-//! The sign of ρ is free, since a marker may go down where a motor goes up.
+//! A short overlap has large correlations by chance. Under white noise of unknown power the log-likelihood ratio of an offset is
+//! `−n/2·ln(1 − ρ²)`, n the pairs that are known: offsets are ranked by it. The sign of ρ is free, since a marker may go down where a
+//! motor goes up.
 
 /// The grid has so many products at most; a longer log is looked at more coarsely.
 pub const PRODUCTS: f64 = 2e9;
+
+/// Points of a grid, at most.
+pub const POINTS: f64 = 1e6;
+
+/// Smallest power that is left over: offsets between two steps of the grid are not met exactly.
+const LEFT: f64 = 0.01;
 
 /// A peak of the correlation.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,35 +28,38 @@ pub struct Peak {
     pub lag: i64,
     /// Correlation, between −1 and 1.
     pub correlation: f64,
+    /// Pairs that are known.
+    pub count: usize,
 }
 
-/// The best offset, and the best of the others that are no part of its peak.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Found {
-    /// The greatest |ρ|.
-    pub best: Peak,
-    /// The greatest beyond the places where |ρ| first falls below half of it.
-    pub rival: Option<Peak>,
+impl Peak {
+    /// Twice the log-likelihood ratio, if all pairs are independent.
+    pub fn evidence(&self) -> f64 {
+        -(self.count as f64) * (1.0 - self.correlation.powi(2)).max(LEFT).ln()
+    }
 }
 
-/// Correlates over the offsets `lags`, where `fewest` pairs or more are known.
-pub fn correlate(r: &[f64], s: &[f64], lags: std::ops::RangeInclusive<i64>, fewest: usize) -> Option<Found> {
-    let all: Vec<(i64, f64)> = lags.map(|lag| (lag, at(r, s, lag, fewest))).collect();
-    let size = |i: usize| all[i].1.abs();
-    let best = (0..all.len()).filter(|i| all[*i].1 != 0.0).max_by(|a, b| size(*a).total_cmp(&size(*b)))?;
-    let low = |i: &usize| size(*i) < 0.5 * size(best);
-    let (from, to) = ((0..best).rev().find(low), (best..all.len()).find(low));
-    let outside = (0..from.unwrap_or(0)).chain(to.unwrap_or(all.len())..all.len());
-    let rival = outside.max_by(|a, b| size(*a).total_cmp(&size(*b)));
-    let peak = |i: usize| Peak { lag: all[i].0, correlation: all[i].1 };
-    Some(Found { best: peak(best), rival: rival.filter(|i| all[*i].1 != 0.0).map(peak) })
+/// Correlates over the offsets `lags`, where `fewest` pairs or more are known. The peaks, best first: between two of them |ρ| falls
+/// below half of the greatest, or changes its sign.
+pub fn correlate(r: &[f64], s: &[f64], lags: std::ops::RangeInclusive<i64>, fewest: usize) -> Vec<Peak> {
+    let all: Vec<Peak> = lags.map(|lag| at(r, s, lag, fewest)).collect();
+    let size = |peak: &Peak| peak.correlation.abs();
+    let greatest = all.iter().map(size).fold(0.0, f64::max);
+    let is_part = |peak: &Peak| greatest > 0.0 && size(peak) >= 0.5 * greatest;
+    let one = |a: &Peak, b: &Peak| is_part(a) && is_part(b) && (a.correlation > 0.0) == (b.correlation > 0.0);
+    let lobes = all.chunk_by(one).filter(|lobe| is_part(&lobe[0]));
+    let top = |lobe: &[Peak]| lobe.iter().copied().reduce(|a, b| if size(&b) > size(&a) { b } else { a });
+    let mut peaks: Vec<Peak> = lobes.filter_map(top).collect();
+    peaks.sort_by(|a, b| b.evidence().total_cmp(&a.evidence()));
+    peaks
 }
 
 /// ρ at one offset; 0 where too few pairs are known. NaN is unknown.
-fn at(r: &[f64], s: &[f64], lag: i64, fewest: usize) -> f64 {
+fn at(r: &[f64], s: &[f64], lag: i64, fewest: usize) -> Peak {
     let (from, to) = (lag.max(0), (r.len() as i64).min(s.len() as i64 + lag));
+    let none = Peak { lag, correlation: 0.0, count: 0 };
     if to - from < fewest as i64 {
-        return 0.0;
+        return none;
     }
     let (r, s) = (&r[from as usize..to as usize], &s[(from - lag) as usize..(to - lag) as usize]);
     let (mut rs, mut rr, mut ss, mut count) = (0.0, 0.0, 0.0, 0);
@@ -61,7 +72,11 @@ fn at(r: &[f64], s: &[f64], lag: i64, fewest: usize) -> f64 {
             count += 1;
         }
     }
-    if count < fewest || rr == 0.0 || ss == 0.0 { 0.0 } else { rs / (rr * ss).sqrt() }
+    if count < fewest || rr == 0.0 || ss == 0.0 {
+        none
+    } else {
+        Peak { lag, correlation: rs / (rr * ss).sqrt(), count }
+    }
 }
 
 #[cfg(test)]
@@ -70,15 +85,25 @@ mod tests {
 
     /// Oracle: planted.
     #[test]
-    fn a_shifted_signal_is_found_and_a_repeated_one_has_a_rival() {
+    fn a_shifted_signal_is_found_and_a_repeated_one_at_each_period() {
         let signal = |k: i64| ((k * k) as f64 * 0.01).sin();
         let s: Vec<f64> = (0..200).map(signal).collect();
         let r: Vec<f64> = (0..100).map(|k| -2.0 * signal(k + 37)).collect();
-        let found = correlate(&r, &s, -150..=150, 60).map(|f| f.best);
-        assert!(found.is_some_and(|peak| peak.lag == -37 && (peak.correlation + 1.0).abs() < 1e-9), "{found:?}");
-        let wave = |k: i64| (k as f64 * 0.3).sin();
+        let found = correlate(&r, &s, -150..=150, 60)[0];
+        assert!(found.lag == -37 && (found.correlation + 1.0).abs() < 1e-9, "{found:?}");
+        let wave = |k: i64| (k as f64 * std::f64::consts::TAU / 20.0).sin();
         let [r, s]: [Vec<f64>; 2] = [(0..100).map(wave).collect(), (0..200).map(|k| wave(k + 5)).collect()];
-        let rival = correlate(&r, &s, -100..=20, 60).and_then(|f| f.rival);
-        assert!(rival.is_some_and(|peak| peak.correlation.abs() > 0.9), "{rival:?}");
+        let peaks = correlate(&r, &s, -100..=20, 60);
+        let mut lags: Vec<i64> = peaks.iter().filter(|peak| peak.correlation > 0.99).map(|peak| peak.lag).collect();
+        lags.sort_unstable();
+        assert_eq!(lags, [-95, -75, -55, -35, -15, 5]);
+    }
+
+    /// Oracle: by hand; the short overlap has the greater correlation, the long one more evidence.
+    #[test]
+    fn a_long_overlap_counts_for_more_than_a_short_one() {
+        let peak = |correlation, count| Peak { lag: 0, correlation, count };
+        assert!(peak(0.9, 200).evidence() > peak(-0.92, 100).evidence());
+        assert!(peak(0.9, 200).evidence() < peak(-0.99, 100).evidence());
     }
 }

@@ -4,5 +4,6 @@ pub(super) mod align;
 pub(crate) mod correlate;
 pub(crate) mod estimate;
 mod event;
+mod lag;
 pub(crate) mod refine;
 pub(crate) mod slope;

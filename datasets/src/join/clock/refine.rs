@@ -33,6 +33,9 @@ const STEPS: usize = 60;
 /// Blocks of time, at most and at least.
 const BLOCKS: (usize, usize) = (24, 6);
 
+/// Times that are compared, at most.
+const POINTS: f64 = 65536.0;
+
 /// Terms of the gain's polynomial.
 const GAINS: usize = 3;
 
@@ -74,104 +77,85 @@ struct Model {
 /// Improves `offset`, and the drift where it is `free`; `origin` is the source time at which the offset holds.
 pub fn refine(pair: &Pair, offset: f64, drift: f64, free: bool, origin: f64) -> Option<Refined> {
     let times = grid(pair, offset, drift, origin);
-    let (center, scale) = standard(pair.source);
-    let (mut o, mut d, mut gains) = (offset, drift, [0.0; GAINS]);
-    let columns = GAINS + 1 + usize::from(free);
-    let mut last = None;
-    for _ in 0..STEPS {
-        let model = model(pair, &times, o, d, origin, &gains, (center, scale), free)?;
-        let weights = huber(&model.residuals);
-        let (h, g) = normal(&model, &weights);
-        let step = h.clone().cholesky()?.solve(&g);
-        (0..GAINS).for_each(|k| gains[k] += step[k]);
-        let limit = |step: f64| step.clamp(-pair.width, pair.width);
-        o += limit(step[GAINS]);
-        d += if free { step[GAINS + 1].clamp(-1e-3, 1e-3) } else { 0.0 };
-        let done = step[GAINS].abs() < 1e-7 && last.is_some();
-        last = Some(());
-        if done {
+    let at = |all: &[f64]| pair.model(&times, all, drift, origin);
+    let mut found = [[0.0; GAINS].as_slice(), &[offset]].concat();
+    found.extend(free.then_some(drift));
+    for step in 0..STEPS {
+        let model = at(&found)?;
+        let (h, g) = normal(&model, &huber(&model.residuals));
+        let change = h.cholesky()?.solve(&g);
+        let limits = [f64::INFINITY, f64::INFINITY, f64::INFINITY, pair.width, 1e-3];
+        found.iter_mut().zip(change.iter()).zip(limits).for_each(|((x, step), most)| *x += step.clamp(-most, most));
+        if change[GAINS].abs() < 1e-7 && step > 0 {
             break;
         }
     }
-    if !(d.abs() < 0.05) {
+    let drift = found.get(GAINS + 1).copied().unwrap_or(drift);
+    if !(drift.abs() < 0.05) {
         return None;
     }
-    let at = |all: &[f64]| {
-        let gains = [all[0], all[1], all[2]];
-        let d = if free { all[GAINS + 1] } else { d };
-        model(pair, &times, all[GAINS], d, origin, &gains, (center, scale), free)
-    };
-    let mut found = [gains.as_slice(), &[o]].concat();
-    found.extend(free.then_some(d));
     let model = at(&found)?;
-    let blocks = (times.len() / 10).clamp(BLOCKS.1, BLOCKS.0).max(columns + 2);
+    let blocks = (times.len() / 10).clamp(BLOCKS.1, BLOCKS.0).max(found.len() + 2);
     let variance = jackknife(&at, &found, pair.width, blocks)?;
-    let quantile = student((blocks - columns) as f64);
+    let quantile = student((blocks - found.len()) as f64);
     let half = |k: usize| quantile * variance[(k, k)].max(0.0).sqrt();
     let all: f64 = model.rates.iter().map(|rate| rate * rate).sum();
     let left: f64 = model.residuals.iter().map(|residual| residual * residual).sum();
     let drift_interval = if free { half(GAINS + 1) } else { 0.0 };
     let (interval, explained) = (half(GAINS), 1.0 - left / all);
-    Some(Refined { offset: o, interval, drift: d, drift_interval, explained })
+    Some(Refined { offset: found[GAINS], interval, drift, drift_interval, explained })
 }
 
-/// Reference times at half the width of the window, as far as both sources reach.
-fn grid(pair: &Pair, offset: f64, drift: f64, origin: f64) -> Vec<f64> {
+/// Reference times at half the width of the window, or [`POINTS`] of them, as far as both sources reach.
+pub fn grid(pair: &Pair, offset: f64, drift: f64, origin: f64) -> Vec<f64> {
     let (Some(r), Some(s)) = (pair.reference.span(), pair.source.span()) else { return Vec::new() };
     let forward = |u: f64| u + offset + drift * (u - origin);
     // a window's width within the ends, so that a changed offset leaves no sample without a window
     let (from, to) = (r.0.max(forward(s.0)) + 2.0 * pair.width, r.1.min(forward(s.1)) - 2.0 * pair.width);
-    let count = ((to - from) / (0.5 * pair.width)).floor().max(0.0) as usize;
-    (0..count).map(|k| from + 0.5 * pair.width * k as f64).collect()
+    let step = (0.5 * pair.width).max((to - from) / POINTS);
+    let count = ((to - from) / step).floor().max(0.0) as usize;
+    (0..count).map(|k| from + step * k as f64).collect()
 }
 
 /// Mean and standard deviation of the values.
-fn standard(series: &Series) -> (f64, f64) {
+pub fn standard(series: &Series) -> (f64, f64) {
     let count = series.values.len().max(1) as f64;
     let mean = series.values.iter().sum::<f64>() / count;
     let variance = series.values.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / count;
     (mean, variance.sqrt().max(f64::MIN_POSITIVE))
 }
 
-#[allow(clippy::too_many_arguments)]
-fn model(
-    pair: &Pair,
-    times: &[f64],
-    o: f64,
-    d: f64,
-    origin: f64,
-    gains: &[f64; GAINS],
-    (center, scale): (f64, f64),
-    free: bool,
-) -> Option<Model> {
-    let basis = |u: f64| -> Option<[f64; GAINS]> {
-        let (value, rate) = local(pair.source, u, pair.width)?;
-        let z = (value - center) / scale;
-        Some([rate, z * rate, z * z * rate])
-    };
-    let (h, columns) = (0.25 * pair.width, GAINS + 1 + usize::from(free));
-    let dot = |basis: &[f64; GAINS]| basis.iter().zip(gains).map(|(b, a)| b * a).sum::<f64>();
-    let (mut rows, mut residuals, mut kept, mut rates) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-    for t in times {
-        let u = origin + (t - o - origin) / (1.0 + d);
-        let (Some((_, rate)), Some(here), Some(before), Some(after)) =
-            (local(pair.reference, *t, pair.width), basis(u), basis(u - h), basis(u + h))
-        else {
-            continue;
+impl Pair<'_> {
+    /// The model with these gains, this offset and, as the last, the drift where it is free.
+    fn model(&self, times: &[f64], found: &[f64], drift: f64, origin: f64) -> Option<Model> {
+        let (center, scale) = standard(self.source);
+        let basis = |u: f64| -> Option<[f64; GAINS]> {
+            let (value, rate) = local(self.source, u, self.width)?;
+            let z = (value - center) / scale;
+            Some([rate, z * rate, z * z * rate])
         };
-        let slope = (dot(&after) - dot(&before)) / (2.0 * h);
-        rows.extend(here);
-        rows.push(-slope);
-        if free {
-            rows.push(-slope * (u - origin));
+        let (h, columns, o) = (0.25 * self.width, found.len(), found[GAINS]);
+        let d = found.get(GAINS + 1).copied().unwrap_or(drift);
+        let dot = |basis: &[f64; GAINS]| basis.iter().zip(found).map(|(b, a)| b * a).sum::<f64>();
+        let (mut rows, mut residuals, mut kept, mut rates) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        for t in times {
+            let u = origin + (t - o - origin) / (1.0 + d);
+            let (Some((_, rate)), Some(here), Some(before), Some(after)) =
+                (local(self.reference, *t, self.width), basis(u), basis(u - h), basis(u + h))
+            else {
+                continue;
+            };
+            let slope = (dot(&after) - dot(&before)) / (2.0 * h);
+            rows.extend(here);
+            rows.extend([-slope, -slope * (u - origin)].into_iter().take(columns - GAINS));
+            residuals.push(rate - dot(&here));
+            rates.push(rate);
+            kept.push(*t);
         }
-        residuals.push(rate - dot(&here));
-        rates.push(rate);
-        kept.push(*t);
+        let enough = kept.len() >= 4 * columns && kept.len() * 3 >= times.len();
+        let jacobian = DMatrix::from_row_slice(kept.len(), columns, &rows);
+        enough.then_some(Model { residuals, jacobian, times: kept, rates })
     }
-    let enough = kept.len() >= 4 * columns && kept.len() * 3 >= times.len();
-    let jacobian = DMatrix::from_row_slice(kept.len(), columns, &rows);
-    enough.then_some(Model { residuals, jacobian, times: kept, rates })
 }
 
 /// Weights that bound what a single residual can do.

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::Check;
-use crate::manifest::{Clock, Drift, Manifest, OffsetTable, Source, Table};
+use crate::manifest::{ByTrial, Clock, Drift, Manifest, OffsetTable, Source, Table};
 use crate::units::{Dimension, Unit};
 
 impl Check<'_> {
@@ -121,8 +121,11 @@ impl Check<'_> {
                 "write one of { value = …, unit = \"s\" }, { estimate = \"estimate\" } and { event = \"column\", … }";
             return self.say(key, message);
         }
-        if offset.value.is_some_and(|value| !value.is_finite()) {
-            self.say(key, "the offset is not finite; correct it");
+        for (name, numbers) in [("value", &offset.value), ("around", &offset.around)] {
+            for (trial, number) in numbers.iter().flat_map(ByTrial::numbers).filter(|(_, number)| !number.is_finite()) {
+                let key: Vec<&str> = key.iter().copied().chain([name]).chain(trial).collect();
+                self.say(&key, format!("the offset is {number}; give a finite number"));
+            }
         }
         if offset.value.is_some() {
             let unit = offset.unit.as_deref().and_then(|unit| Unit::parse(unit).ok());
