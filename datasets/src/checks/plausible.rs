@@ -283,7 +283,7 @@ fn unmoved(layout: &Layout, trials: &[&Seen]) -> Option<String> {
     let moving = trials.iter().filter(|trial| !rests(trial)).count();
     let mut developing = trials.iter().filter(|trial| trial.role == Role::Development);
     let first = developing.clone().next().filter(|_| !layout.actuators.is_empty() && moving > 0)?;
-    developing.all(|trial| rests(trial)).then(|| {
+    developing.all(rests).then(|| {
         format!(
             "{}: no development trial moves an actuator (the first is `{}`), and only motion shows an effect; in [roles], name trials \
              under `development` in which actuators move",
