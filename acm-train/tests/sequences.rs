@@ -330,11 +330,14 @@ fn a_unit_of_time_that_is_another_is_told() {
     let message = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success() && message.contains("warning: column `t` has "), "{message}");
     assert!(message.contains("unit is min; did you mean") && message.contains("time_unit in [data]"), "{message}");
-    let gru = folder.path().join("gru.toml");
-    let text = OSCILLATOR.replace("units          = 16\nbackbone_units = 32", "kind = \"gru\"\nunits = 8");
+    // from elsewhere, beside the tables
+    let gru = folder.path().join("tables/gru.toml");
+    let text = OSCILLATOR
+        .replace("\"tables\"", "\".\"")
+        .replace("units          = 16\nbackbone_units = 32", "kind = \"gru\"\nunits = 8");
     fs::write(&gru, text.replace("[control]\n", "").replace("epochs        = 60", "epochs = 1")).unwrap();
     let mut command = Command::new(assert_cmd::cargo::cargo_bin!("acm-train"));
-    let output = command.current_dir(folder.path()).args(["--config", "gru.toml"]).output().unwrap();
+    let output = command.current_dir(folder.path()).args(["--config", "tables/gru.toml"]).output().unwrap();
     let printed = String::from_utf8_lossy(&output.stdout);
     assert!(printed.contains("gru, which ignores elapsed time"), "{printed}");
     assert!(!String::from_utf8_lossy(&output.stderr).contains("warning"), "the steps are plausible");

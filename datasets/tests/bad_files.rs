@@ -116,18 +116,3 @@ fn a_pipe_is_no_file() {
         assert!(message.contains(file) && message.contains("this is no file but a named pipe"), "{message}");
     }
 }
-
-/// A manifest without a key says so, and names an example.
-#[test]
-fn an_empty_manifest_is_told() {
-    for (text, what) in
-        [("", "is empty"), ("\u{feff}\n  \n", "is empty"), ("# name = 1\n\n# x", "nothing but comments")]
-    {
-        let set = Set::new().expect("a temporary folder");
-        set.write("data/manifest.toml", text).expect("written");
-        let (code, message) = check(&set);
-        assert_eq!(code, 2, "{message}");
-        assert!(message.contains("manifest.toml:1:1: the file") && message.contains(what), "{message}");
-        assert!(message.contains("book/src/manifest.md"), "{message}");
-    }
-}

@@ -336,7 +336,9 @@ impl LoopConfig {
             faults.push(Fault::new("nominal.augmented", "is a model that has its effects already", help));
         }
         let only = self.effects.only.as_deref();
-        for (key, names) in [("effects.only", only.unwrap_or_default()), ("effects.without", &self.effects.without)] {
+        for (key, names) in
+            [("effects.only", only.unwrap_or_default()), ("effects.without", self.effects.without.as_slice())]
+        {
             faults
                 .extend(names.iter().enumerate().filter_map(|(index, name)| unknown(key, index, name, &self.known())));
         }

@@ -25,7 +25,7 @@ pub use parse::source::{Edits, Source};
 pub use question::{
     Control as QuestionControl, Data as QuestionData, Persistence, Question, Scale, read as read_question,
 };
-pub use read::{find_file, find_folder, name_the_default_network, of_source, read};
+pub use read::{find_file, find_folder, find_folder_with, name_the_default_network, of_source, read};
 pub use study::{Kind, kind};
 pub use training::loss::Loss;
 pub use training::optimizer::OptimizerKind;

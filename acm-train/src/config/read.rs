@@ -33,9 +33,14 @@ pub fn of_source(source: &mut Source) -> Result<Experiment, ConfigError> {
 }
 
 /// Finds the folder that `path` names: from the current directory, else from the experiment file's folder or one above
-/// it; `~` is the user's home, since no shell puts it in behind `data=`.
+/// it; `~` is the user's home, since no shell puts it in behind `data=`. A folder with a manifest precedes others.
 pub fn find_folder(path: &Path, file: &Path) -> Option<PathBuf> {
-    find(path, file, Path::is_dir)
+    find_folder_with(path, file, |folder| folder.join("manifest.toml").exists())
+}
+
+/// As [`find_folder`], where a folder that `has` the data precedes others.
+pub fn find_folder_with(path: &Path, file: &Path, has: impl Fn(&Path) -> bool) -> Option<PathBuf> {
+    find(path, file, |folder| folder.is_dir() && has(folder)).or_else(|| find(path, file, Path::is_dir))
 }
 
 /// Finds the file that `path` names, as a folder is found ([`find_folder`]).
@@ -43,7 +48,7 @@ pub fn find_file(path: &Path, file: &Path) -> Option<PathBuf> {
     find(path, file, Path::is_file)
 }
 
-fn find(path: &Path, file: &Path, there: fn(&Path) -> bool) -> Option<PathBuf> {
+fn find(path: &Path, file: &Path, there: impl Fn(&Path) -> bool) -> Option<PathBuf> {
     let path = &at_home(path);
     let above = std::path::absolute(file).unwrap_or_else(|_| file.into());
     let places = std::iter::once(Path::new("")).chain(above.ancestors().skip(1));

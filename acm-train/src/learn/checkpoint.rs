@@ -134,7 +134,7 @@ pub fn read(path: &Path, identity: &Identity, network: &Network) -> Result<Optio
     let bytes = match bounded::read(path, longest(identity, network)) {
         Ok(bytes) => bytes,
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
-        Err(error) if error.kind() == io::ErrorKind::InvalidData => {
+        Err(error) if matches!(error.kind(), io::ErrorKind::InvalidData | io::ErrorKind::IsADirectory) => {
             return Err(LearnError::Damaged { path: path.into(), why: error.to_string() });
         }
         Err(source) => return Err(StoreError::io("read", path, source).into()),

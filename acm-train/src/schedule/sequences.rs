@@ -10,7 +10,7 @@ use super::engine::queue::{lock, side_by_side};
 use super::error::ScheduleError;
 use super::open::{Planned, What};
 use super::request::Request;
-use crate::config::{Kind, Question, QuestionData, Source, find_folder, read_question};
+use crate::config::{Kind, Question, QuestionData, Source, find_folder_with, read_question};
 use crate::run::RunError;
 use crate::run::evaluation::summary::count;
 use crate::run::sequences::plan::{self, Plan};
@@ -166,7 +166,8 @@ fn set(question: &Question, source: &Source, request: &Request) -> Result<Sequen
     let set = match &question.data {
         QuestionData::BitStreamXor(asked) => bit_stream::generate(asked),
         QuestionData::Table(asked) => {
-            let found = request.data.map(Into::into).or_else(|| find_folder(&asked.folder, source.path()));
+            let named = || find_folder_with(&asked.folder, source.path(), |folder| asked.lies_in(folder));
+            let found = request.data.map(Into::into).or_else(named);
             let folder = found.ok_or_else(|| {
                 let what = format!("`data.folder` is {:?}, and there is no such folder", asked.folder);
                 let help = "name a folder, as seen from the current directory or from the experiment file";

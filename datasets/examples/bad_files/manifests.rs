@@ -185,7 +185,13 @@ fn sizes() -> Vec<Case> {
             &["column `xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx…` is missing"],
         )
         .of_data_in("run_a.csv"),
-        text("no text", String::new(), ":1:1", &["the file is empty", "write at least one key"]),
+        text(
+            "no text",
+            "\u{feff}\n \n".into(),
+            ":1:1",
+            &["the file is empty", "write at least one key", "manifest.md"],
+        ),
+        text("comments alone", "# name = 1\n\n# x".into(), ":1:1", &["nothing but comments"]),
         text("a zero byte", "name = \u{0}".into(), ":1:", &["mend the TOML"]),
     ]
 }

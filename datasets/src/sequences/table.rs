@@ -114,6 +114,11 @@ impl Tables {
         (unit.dimension == Dimension::Time).then_some(unit)
     }
 
+    /// Returns whether a folder has a file of each pattern.
+    pub fn lies_in(&self, folder: &Path) -> bool {
+        files(self, folder).is_ok()
+    }
+
     /// Returns a warning if the median step of the training part cannot be right.
     pub fn implausible_step(&self, set: &SequenceSet) -> Option<String> {
         let column = self.time.as_ref().or(self.elapsed.as_ref())?;

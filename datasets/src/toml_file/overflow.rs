@@ -12,11 +12,11 @@ pub fn find(text: &str) -> Option<(Range<usize>, String, &'static str)> {
         let (shown, what, remedy) = match value.get_ref() {
             DeValue::Integer(number) if i64::from_str_radix(number.as_str(), number.radix()).is_err() => (
                 number.to_string(),
-                "no whole number of TOML",
+                "beyond the whole numbers of TOML",
                 "write one from -9223372036854775808 to 9223372036854775807",
             ),
             DeValue::Float(number) if is_too_large(number.as_str()) => {
-                (number.to_string(), "too large for a number of TOML", "write one from -1.7e308 to 1.7e308")
+                (number.to_string(), "beyond the numbers of TOML", "write one from -1.7e308 to 1.7e308")
             }
             _ => return None,
         };

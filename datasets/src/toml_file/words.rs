@@ -76,7 +76,7 @@ pub fn empty(text: &str, example: &str) -> Option<(&'static str, String)> {
     let mut lines =
         text.trim_start_matches('\u{feff}').lines().map(str::trim).filter(|line| !line.is_empty()).peekable();
     let what = if lines.peek().is_none() { "the file is empty" } else { "the file has nothing but comments" };
-    let help = format!("write at least one key, as {example} shows, or name another file");
+    let help = format!("write at least one key, or name another file; {example} shows such a file");
     lines.all(|line| line.starts_with('#')).then_some((what, help))
 }
 

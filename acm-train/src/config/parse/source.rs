@@ -21,7 +21,7 @@ use crate::config::error::ConfigError;
 const LARGEST_FILE: u64 = 64 * 1024;
 
 /// Files that show what such a file can say.
-const EXAMPLES: &str = "experiments/cfc.toml (of acm-train) and experiments/close-the-loop.toml (of acm-eval)";
+const EXAMPLES: &str = "experiments/cfc.toml (acm-train) or experiments/close-the-loop.toml (acm-eval)";
 
 /// Keys that have options of their own on the command line.
 const OPTIONS: [&str; 2] = ["out", "config"];
