@@ -238,7 +238,7 @@ fn cases() -> Vec<Case> {
         Case {
             name: "time that stands still",
             make: |folder| {
-                write(folder, "a.csv", &csv("t,q,x", 0, |k, [_, q, x]| format!("{},{q},{x}", k - k % 10 / 9)))
+                write(folder, "a.csv", &csv("t,q,x", 0, |k, [_, q, x]| format!("{},{q},{x}", k - k % 10 / 9)));
             },
             draft: &["time   = { column = \"t\", unit = \"s\" }   # is this its unit?"],
             not: &[],
@@ -270,7 +270,7 @@ fn cases() -> Vec<Case> {
                 plain(
                     folder,
                     &["1.csv", "2.csv", "10.csv", "my [first] run.v2.csv", "the \"last\" one.csv", "a:b.csv", "~c.csv"],
-                )
+                );
             },
             draft: &["held_out    = [\"~c\"]"],
             not: &[],

@@ -3,9 +3,9 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
+use super::column::Column;
 use super::found::Found;
 use super::names::quoted;
-use super::signals::Column;
 use super::time;
 use crate::join::clock::estimate::Named;
 use crate::join::{Request, Series, estimate, signals};

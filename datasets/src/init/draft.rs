@@ -4,9 +4,10 @@ use std::fmt::Write;
 use std::path::Path;
 
 use super::clocks::{self, Located};
-use super::found::{Folder, Found};
+use super::found::Found;
 use super::names::{self, list, quoted};
 use super::signals::{self, Part, Signal};
+use super::sources::Folder;
 use super::time::{self, Time};
 use crate::text::natural;
 

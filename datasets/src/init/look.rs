@@ -71,10 +71,10 @@ fn csv(path: &Path) -> Result<Vec<Look>, DataError> {
     let numbers = csv.names.iter().filter(|name| !name.is_empty()).map(|name| (name.clone(), true)).collect();
     let wanted = Wanted { numbers, ..Wanted::default() };
     // numbers that can mean two things are asked for by `check`
-    let commas = || open(&Wanted { decimal: Some(','), ..Wanted::default() })?.read(&wanted, &mut Vec::new());
+    let marked = |mark| open(&Wanted { decimal: Some(mark), ..Wanted::default() })?.read(&wanted, &mut Vec::new());
     let read = match csv.read(&wanted, &mut Vec::new()) {
         Err(DataError::NoRows { .. }) => return Ok(csv.names.iter().map(|name| Look::new(name, None)).collect()),
-        read => read.or_else(|_| commas())?,
+        read => read.or_else(|first| marked(',').or_else(|_| marked('.')).map_err(|_| first))?,
     };
     let unit = |name: &String| csv.units.as_ref().and_then(|units| units.get(name)).map(String::as_str);
     let look = |name: &String| {

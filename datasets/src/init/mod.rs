@@ -7,11 +7,13 @@
 //! Which columns are commands and which are measured cannot be seen in their values: their names propose it, and the draft asks.
 
 mod clocks;
+mod column;
 mod draft;
 mod found;
 mod look;
 mod names;
 mod signals;
+mod sources;
 mod time;
 
 use std::path::Path;
@@ -23,7 +25,7 @@ use crate::error::DataError;
 /// # Errors
 /// The file system; a folder without recordings.
 pub fn manifest(folder: &Path) -> Result<String, DataError> {
-    let mut found = found::folder(folder)?;
+    let mut found = sources::folder(folder)?;
     if found.sources.is_empty() {
         let left: String = found.left.iter().take(3).map(|(path, reason)| format!("; {path}: {reason}")).collect();
         let more = found.left.len().saturating_sub(3);

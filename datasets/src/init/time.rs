@@ -11,9 +11,9 @@
 
 use std::collections::BTreeSet;
 
+use super::column::Column;
 use super::found::Found;
 use super::names;
-use super::signals::Column;
 use crate::ingest::recording::Held;
 
 /// First words of names of time.

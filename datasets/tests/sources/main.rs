@@ -116,12 +116,12 @@ fn what_does_not_fit_together_is_refused() {
         (
             "offset = \"estimate\"\ndrift",
             "offset = { estimate = \"estimate\", around = { a = 0.7, d = 0.7 }, within = 0.1 }\ndrift",
-            &["manifest.toml:17:62", "names trial `d`", "the trials are a b c"],
+            &["manifest.toml:16:59", "names trial `d`", "the trials are a b c"],
         ),
         (
             "offset = \"estimate\"\ndrift",
             "offset = { value = { a = nan }, unit = \"s\" }\ndrift",
-            &["manifest.toml:17:22", "the offset is NaN"],
+            &["manifest.toml:16:26", "the offset is NaN"],
         ),
         (
             "offset = \"estimate\"\ndrift",
@@ -168,7 +168,7 @@ fn what_is_wrong_in_a_file_is_told_with_its_row() {
     lab.write("b_motors.csv", &text.replace(second, "1,98; 0,5"));
     let message = open(&lab).map(|_| ()).expect_err("refused");
     assert!(message.contains("b_motors.csv") && message.contains("row 102"), "{message}");
-    for (at, stamp) in [(102, "1764411111"), (102, "-1e5"), (2, "1e4"), (1481, "1e6")] {
+    for (at, stamp) in [(102, "1764411111"), (102, "-1e5"), (2, "1e4"), (1476, "1e6")] {
         let lines = text.lines().enumerate().map(|(i, line)| match (i + 1 == at, line.split_once(',')) {
             (true, Some((_, rest))) => format!("{stamp},{rest}\n"),
             _ => format!("{line}\n"),
