@@ -32,6 +32,10 @@ pub fn motion(trial: usize, row: usize) -> [f64; 3] {
     [t, angle(t), 0.25 * angle(t - 0.08).sin() + 2e-4 * noise]
 }
 
+/// Writes a text.
+///
+/// # Panics
+/// The file system.
 pub fn write(folder: &Path, name: &str, text: &str) {
     let path = folder.join(name);
     std::fs::create_dir_all(path.parent().expect("a folder")).expect("made");
@@ -44,6 +48,10 @@ pub fn csv(header: &str, trial: usize, row: impl Fn(usize, [f64; 3]) -> String) 
     format!("{header}\n{}", rows.collect::<String>())
 }
 
+/// Writes a Parquet file.
+///
+/// # Panics
+/// The file system.
 pub fn parquet(folder: &Path, name: &str, columns: Vec<(&str, Column)>) {
     std::fs::create_dir_all(folder.join(name).parent().expect("a folder")).expect("made");
     let columns: Vec<(String, Column)> = columns.into_iter().map(|(name, column)| (name.to_string(), column)).collect();

@@ -27,8 +27,6 @@ pub struct Claims {
     pub longer: i64,
     /// 0 is none.
     pub codec: i64,
-    /// 0 is a single value, 2 a list.
-    pub repetition: i64,
     /// Columns below the column.
     pub children: i64,
     /// Physical type: 5 is a double.
@@ -53,7 +51,6 @@ impl Claims {
             offset: 0,
             longer: 0,
             codec: 0,
-            repetition: 0,
             children: 0,
             kind: 5,
             groups: 1,
@@ -90,7 +87,7 @@ impl Claims {
             if !(spoiled && self.children > 0) {
                 element.number(1, 5, if spoiled { self.kind } else { 5 });
             }
-            element.number(3, 5, if spoiled { self.repetition } else { 0 }).text(4, column);
+            element.number(3, 5, 0).text(4, column);
             if spoiled && self.children > 0 {
                 element.number(5, 5, self.children);
             }
