@@ -9,6 +9,9 @@
 //! All other steps must be shorter than P/4: a signal that is sampled more coarsely, such as a random set point, does not show
 //! whether it wraps. The step that remains must be of the size of its neighbours (a factor of 3 allows for acceleration).
 
+use std::cmp::Reverse;
+use std::collections::BTreeMap;
+
 use crate::ingest::stamps::COUNTERS;
 
 /// Jumps of a signal by its period.
@@ -55,15 +58,21 @@ pub(crate) fn flips(four: [&[f64]; 4]) -> Vec<usize> {
     present.windows(2).filter(flips).map(|pair| pair[1]).collect()
 }
 
-/// Takes whole periods out of the steps of a signal: no step is longer than half a period. NaN stays.
+/// Takes whole periods out of the steps of a signal: no step is longer than half a period. The number of turns before the
+/// first sample is unknown; it is chosen so that most samples keep their value. NaN stays.
 pub(crate) fn unwrap(values: &mut [f64], period: f64) {
-    let (mut turns, mut before) = (0.0, None);
+    let (mut turns, mut before) = (0_i32, None);
+    let mut samples = BTreeMap::<i32, usize>::new();
     for value in values.iter_mut().filter(|value| value.is_finite()) {
-        let step = before.map_or(0.0, |before| *value + turns * period - before);
-        turns -= (step / period).round();
-        *value += turns * period;
+        let step = before.map_or(0.0, |before| *value + f64::from(turns) * period - before);
+        turns = turns.saturating_sub((step / period).round() as i32);
+        *value += f64::from(turns) * period;
         before = Some(*value);
+        *samples.entry(turns).or_default() += 1;
     }
+    let usual = samples.into_iter().max_by_key(|(turns, count)| (*count, Reverse(turns.unsigned_abs())));
+    let shift = usual.map_or(0.0, |(turns, _)| f64::from(turns) * period);
+    values.iter_mut().for_each(|value| *value -= shift);
 }
 
 /// Turns the sign of quaternions so that none is more than a right angle from the one before. NaN stays.
@@ -109,6 +118,18 @@ mod tests {
             let values = wrapped(range, 0.0, |k| (range * (0.9 + 0.02 * k)).round());
             assert_eq!(find(&values, None).map(|found| (found.period, found.samples.len())), Some((range, 8)));
         }
+    }
+
+    /// Oracle: the motion, which begins beyond half a turn and is within it for most of the time.
+    #[test]
+    fn a_trial_that_begins_in_another_turn_keeps_its_zero() {
+        let turn = 2.0 * std::f64::consts::PI;
+        let motion = |k: f64| 4.0 * (0.05 * k).cos();
+        let mut values = wrapped(turn, -turn / 2.0, motion);
+        assert!(values[0] < 0.0, "written in another turn");
+        unwrap(&mut values, turn);
+        let error = values.iter().zip(0..).map(|(value, k)| (value - motion(f64::from(k))).abs());
+        assert!(error.fold(0.0, f64::max) < 1e-9);
     }
 
     #[test]
