@@ -88,7 +88,7 @@ fn held_out_trials_leave_what_is_found_as_it_is() {
     assert_ne!(errors("second")["after"], Value::Null);
 }
 
-/// Every 1.5 s the output is lost for 0.3 s. Oracle: the rig's delay and noise. What is lost is no sample, and its command still acts
+/// The output is lost for 0.3 s every 1.5 s. Oracle: the rig's delay and noise. A lost output is not compared, but its command still acts
 /// later.
 #[test]
 fn commands_act_where_the_output_was_lost() {

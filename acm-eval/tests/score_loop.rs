@@ -269,7 +269,7 @@ fn a_reader_that_goes_away_is_no_failure() {
     assert!(!String::from_utf8_lossy(&done.stderr).contains("panicked"), "{done:?}");
 }
 
-/// Files of others stay, and the command ends before its work begins.
+/// The command refuses to replace foreign files, before it starts its work.
 #[test]
 fn results_replace_results_alone() {
     let folder = tempfile::tempdir().unwrap();

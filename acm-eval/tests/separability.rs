@@ -82,7 +82,7 @@ fn one_speed_does_not_tell_play_from_lag() {
     assert!(page.contains("What these trials can tell apart") && page.contains("actuator_lag"));
     browser::links_resolve(&out.join("separability.html"));
 
-    // What others put into a folder stays as it is.
+    // Foreign files in a folder are kept.
     let mine = folder.path().join("mine");
     fs::create_dir(&mine).unwrap();
     fs::write(mine.join("separability.html"), "notes").unwrap();

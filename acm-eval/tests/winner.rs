@@ -98,7 +98,7 @@ fn the_winner_of_a_study_is_answered_as_it_was_scored() {
         assert_eq!(parts.members.len(), runs);
         let learned = parts.members.iter().filter(|member| member.parts.has_network()).count();
         Average::new(parts).unwrap();
-        // It leaves as C, from the study and from the file, and as ONNX network by network.
+        // It is exported as C from the study and from the file, and as ONNX one network at a time.
         for (given, c) in [(name, "c1"), ("robot.json", "c2")] {
             let (code, _, told) = robot.ask("export", &[given, "--c99", c, "--windows"], "");
             assert_eq!(code, 0, "{told}");

@@ -49,7 +49,7 @@ pub fn samples_of_average(average: &AverageParts, count: usize) -> Vec<Sample> {
         average.members.iter().map(|member| value(&member.parts)).reduce(best).unwrap_or(1.0)
     };
     let step = of(|parts| parts.first_elapsed.min(0.6 * parts.max_gap), f64::min);
-    // Without a network there is no gap; where it has none in fact, it is a long step.
+    // A model without a network has no gap: a very long step stands for it.
     let pause = of(|parts| if parts.has_network() { 2.5 * parts.max_gap } else { 0.0 }, f64::max);
     let pause = if pause > 0.0 && pause < LONG * step { pause } else { 20.0 * step };
     let mut time = 0.0;

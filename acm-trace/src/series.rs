@@ -106,7 +106,7 @@ impl Series {
     #[must_use]
     pub fn decimated(&self, every: usize, fewer: usize) -> Self {
         let looked_at: Vec<usize> = (0..self.rows.len()).step_by(fewer).collect();
-        // Of a whole record, those that are compared lie on the others.
+        // In a whole record, the compared samples are a subset of all samples.
         let every_one = (0..self.record.samples()).step_by(every);
         let mut left: Vec<usize> = every_one.chain(looked_at.iter().map(|&n| self.rows[n])).collect();
         left.sort_unstable();

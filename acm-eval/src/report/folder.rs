@@ -127,7 +127,7 @@ fn former(root: &Path) -> Result<BTreeSet<String>, EvalError> {
         if let Some(name) = ownership::first_foreign(&place, |name| has(name, extensions)).map_err(unread)? {
             return Err(foreign(root, format!("it holds {folder}/{name}")));
         }
-        // Without a page there was no report, and pictures and tables are somebody's.
+        // Without a page there was no report: the pictures and tables belong to the user.
         if !page.exists()
             && let Some(name) = ownership::first_foreign(&place, |_| false).map_err(unread)?
         {

@@ -84,7 +84,7 @@ fn tables(parts: &Parts) -> String {
 fn of_network(parts: &Parts, remembers: bool) -> Vec<(&'static str, String)> {
     let (ask, commit, locals) = asking(parts);
     let known = parts.ranges.is_some();
-    // A gap without end, as estimators without a network have it, is no number in C.
+    // An estimator without a network has an infinite gap, which C cannot write as a number.
     let gap = (parts.max_gap * ROUNDING).min(f64::MAX);
     vec![
         ("@LOCALS", locals),

@@ -37,7 +37,7 @@ fn a_model_without_a_network_answers_as_in_rust() {
     }
 }
 
-/// Its own test passes, with every warning an error.
+/// Its self-test passes, with every warning treated as an error.
 #[test]
 fn the_self_test_of_a_model_without_a_network_passes() {
     for cc in compilers() {

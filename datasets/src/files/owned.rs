@@ -1,4 +1,4 @@
-//! A command replaces what it wrote itself, and nothing else.
+//! A command replaces only files that it wrote itself.
 
 use std::fs::{self, File};
 use std::io::{ErrorKind, Read};
@@ -6,7 +6,7 @@ use std::path::Path;
 
 use crate::error::DataError;
 
-/// Bytes at the beginning of a file by which a command knows its own.
+/// First bytes by which a command recognises its own files.
 const HEAD: u64 = 4096;
 
 /// Refuses a path at which there is something that the command did not write: `is_own` looks at the first bytes of a file. An empty file

@@ -22,7 +22,7 @@ pub(crate) struct Stamps<'a> {
     pub column: &'a str,
     /// s; NaN where a stamp cannot be read.
     pub time: &'a [f64],
-    /// As they are written, if they are numbers.
+    /// Written form of the numbers, if they are numbers.
     pub raw: Option<&'a [f64]>,
     /// Dates and times of a type of their own.
     pub ticks: Option<&'a Ticks>,
@@ -34,7 +34,7 @@ pub(crate) struct Stamps<'a> {
 }
 
 impl Stamps<'_> {
-    /// Of each kind of violation the first, with the rows of the others.
+    /// The first violation of each kind, with the rows of the others.
     pub fn check(&self) -> Vec<DataError> {
         let mut found = Vec::<DataError>::new();
         let readable: Vec<usize> = (0..self.time.len()).filter(|i| self.time[*i].is_finite()).collect();

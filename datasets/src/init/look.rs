@@ -1,4 +1,4 @@
-//! Contents of one file, column by column: what a draft needs to know of the values, without the values.
+//! Summary of each column of a file: what a draft needs to know about the values, without the values.
 //!
 //! [`columns`] is the only function here that knows how files are read.
 

@@ -66,7 +66,7 @@ fn told_of(source: &Found, name: &str) -> Part {
     told(if silent { &source.name } else { name })
 }
 
-/// Commands less measurements, by the names of a group and of its columns.
+/// Number of commands minus number of measurements, judged by the names of a group and of its columns.
 pub(super) fn commands(found: &Found) -> i32 {
     let vote = |name: &str| match told(name) {
         Part::Actuator => 1,

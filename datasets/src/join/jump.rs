@@ -5,10 +5,10 @@ use std::path::Path;
 use super::series::Series;
 use crate::error::{DataError, More};
 
-/// Longest pause of a recording in which nothing is wrong, s, and by its usual step.
+/// Longest plausible pause of a recording: in s, and in usual steps.
 const PAUSE: (f64, f64) = (3600.0, 1000.0);
 
-/// A log loses at most one of so many samples to stamps that are far from the others.
+/// A log may lose at most one sample in this many to outlying stamps.
 const FEW: usize = 10;
 
 /// Stamps that are far from the others.
@@ -22,7 +22,7 @@ pub struct Jump {
     others: (f64, f64),
 }
 
-/// A longer pause is a clock that was set, s.
+/// Longest plausible pause, s: a longer one means that the clock was set.
 pub fn longest_pause(step: f64) -> f64 {
     PAUSE.0.max(PAUSE.1 * step)
 }

@@ -54,7 +54,7 @@ pub struct Tables {
     /// Column of time stamps.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub time: Option<String>,
-    /// Instead: column of the time since the row before.
+    /// Alternative to `time`: column of the time since the previous row.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub elapsed: Option<String>,
     /// Unit of either column; `None` for s.

@@ -181,7 +181,7 @@ fn what_is_wrong_in_a_file_is_told_with_its_row() {
     }
 }
 
-/// Of a trial that takes no part, nothing is asked.
+/// An excluded trial is not checked.
 #[test]
 fn an_excluded_trial_blocks_nothing() {
     let spoil: [&dyn Fn(&Lab); 4] = [

@@ -38,7 +38,7 @@ const FEW_TRIALS: usize = 6;
 
 /// Prints a line as each campaign is done, then the table.
 pub fn run(args: &ScoreArgs) -> Result<(), EvalError> {
-    // Before the work and not after it.
+    // Checked before the work starts.
     args.figure.as_ref().map_or(Ok(()), |name| claim_pictures(name))?;
     args.aliases.as_ref().map_or(Ok(()), |file| claim(file))?;
     args.out.as_ref().map_or(Ok(()), |out| SCORES.iter().try_for_each(|name| claim(&out.join(name))))?;

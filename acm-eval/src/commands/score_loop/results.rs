@@ -31,7 +31,7 @@ pub fn claim_pictures(name: &Path) -> Result<(), EvalError> {
     owned::claim(&svg, own).and_then(|()| owned::claim(&png, |_| svg.exists())).map_err(EvalError::Table)
 }
 
-/// How every diagram is named within.
+/// Name of every diagram in its file.
 const DIAGRAM: &str = "<title id=\"reliability-title\">";
 
 /// Writes a value as JSON, and prints where.

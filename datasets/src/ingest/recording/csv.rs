@@ -10,7 +10,7 @@
 //! | missing values | `nan`, `#N/A`, `null`, `-`, … ([`missing`]) | |
 //! | dates and times of day (ISO 8601) | first cell of the column of time ([`instant`]) | a number |
 //!
-//! What was recognised is a note. A row with fewer cells than the header, or with more that are not empty, is refused with its number.
+//! Everything recognised is printed as a note. A row with fewer cells than the header, or with more that are not empty, is refused with its number.
 
 pub(crate) mod decimal;
 mod instant;

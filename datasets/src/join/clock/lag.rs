@@ -31,7 +31,7 @@ pub struct Lag {
     /// There is one.
     pub is_seen: bool,
     /// Noise attenuates the fast motions: the largest lag is not to be trusted.
-    pub is_noisy: bool,
+    is_noisy: bool,
     /// Time constant of the largest, s.
     pub largest: f64,
 }
@@ -39,17 +39,17 @@ pub struct Lag {
 /// c and its standard error, s².
 type Curvature = (f64, f64);
 
-/// The largest lag that one of the windows sees; where none sees one, the largest that the best of them does not exclude. Windows become
-/// wider.
+/// The largest lag that one of the windows sees; where none sees one, the largest that one of those without much noise does not exclude.
+/// Windows become wider.
 pub fn largest_lag(windows: &[(Pair, Refined)], origin: f64) -> Lag {
     let is_wide = |pair: &Pair| pair.width > 0.9 * WIDTH * pair.reference.step().max(pair.source.step());
     let first = windows.iter().position(|(pair, _)| is_wide(pair)).unwrap_or(windows.len().saturating_sub(1));
     let lags: Vec<Lag> = windows[first..].iter().filter_map(|(pair, found)| in_window(pair, found, origin)).collect();
-    let by = |a: &&Lag, b: &&Lag| a.largest.total_cmp(&b.largest);
-    let seen = lags.iter().filter(|lag| lag.is_seen).max_by(by);
-    let clean = lags.iter().filter(|lag| !lag.is_noisy).min_by(by);
+    let largest = |counts: &dyn Fn(&&Lag) -> bool| {
+        lags.iter().filter(counts).max_by(|a, b| a.largest.total_cmp(&b.largest)).copied()
+    };
     let unknown = Lag { is_seen: false, is_noisy: true, largest: f64::INFINITY };
-    seen.or(clean).or(lags.last()).copied().unwrap_or(unknown)
+    largest(&|lag| lag.is_seen).or(largest(&|lag| !lag.is_noisy)).or(lags.last().copied()).unwrap_or(unknown)
 }
 
 /// A lag of the reference behind the source, or of the source behind the reference.
@@ -77,6 +77,9 @@ fn curvature(pair: &Pair, offset: f64, drift: f64, origin: f64) -> Option<Curvat
     type Normal = (SMatrix<f64, TERMS, TERMS>, SVector<f64, TERMS>);
     let times = grid(pair, offset, drift, origin);
     let (first, last) = (*times.first()?, *times.last()?);
+    if last - first < 2.0 * pair.width * BLOCKS as f64 {
+        return None; // neighbouring blocks are not independent
+    }
     let ((center, scale), h) = (standard(pair.source), 0.5 * pair.width);
     let rate = |u: f64| local(pair.source, u, pair.width);
     let mut blocks: Vec<Normal> = vec![(SMatrix::zeros(), SVector::zeros()); BLOCKS];
