@@ -1,5 +1,4 @@
-//! The book's way to recordings of your own, followed word by word: its manifest beside tables that a robot might have left,
-//! then its command.
+//! The command of the book's chapter on your own recordings, on tables that a robot might have left.
 
 mod campaign;
 
@@ -14,18 +13,49 @@ fn chapter() -> String {
     fs::read_to_string("../book/src/own-recordings.md").unwrap()
 }
 
-/// The manifest of step 2, with y and z written the same way as x.
+/// A manifest of an arm.
 fn manifest() -> String {
-    let chapter = chapter();
-    let begin = chapter.find("   name     = \"my-arm\"").expect("the manifest of step 2");
-    let text: String =
-        chapter[begin..].lines().take_while(|line| line.trim() != "```").flat_map(|l| [l.trim(), "\n"]).collect();
-    let others =
-        ["y", "z"].map(|axis| format!("[[measured]]\ncolumn = \"tip_{axis}\"\nunit = \"mm\"\nname = \"{axis}\"\n"));
-    let written = text.replace("# … y and z the same way\n", &others.concat());
-    assert_ne!(text, written);
-    written
+    MANIFEST.to_string()
 }
+
+const MANIFEST: &str = r#"name     = "my-arm"
+title    = "My arm, OptiTrack"
+licence  = "CC-BY-4.0"
+source   = "my lab, 2026-11-03"
+synthetic = false
+
+[table]
+files = ["run_*.csv"]
+trial = { file = "run_(.*)" }              # the trial's name, from the file's
+time  = { column = "t", unit = "s" }
+
+[[actuator]]
+column = "q1"
+unit   = "deg"
+
+[[measured]]
+column = "tip_x"
+unit   = "mm"
+name   = "x"
+[[measured]]
+column = "tip_y"
+unit = "mm"
+name = "y"
+[[measured]]
+column = "tip_z"
+unit = "mm"
+name = "z"
+
+[arm]                                      # leave out for a polynomial instead of a strain model
+length = { value = 0.40, unit = "m" }
+axis   = "-z"                              # roughly where the straight arm points
+strain = { basis = "legendre", order = 1 } # or { basis = "piecewise", segments = 3 }
+
+[roles]
+calibration = ["a"]
+development = ["b", "c", "d"]
+held_out    = ["e"]
+"#;
 
 /// A tip that follows its motor late, and with a wobble.
 fn table(trial: usize) -> String {
@@ -39,13 +69,12 @@ fn table(trial: usize) -> String {
     std::iter::once("t,q1,tip_x,tip_y,tip_z\n".to_string()).chain((0..SAMPLES).map(row)).collect()
 }
 
-/// The words behind `cargo run -p acm-train --` in step 4.
+/// The words of the chapter behind `cargo run -p acm-train --`.
 fn arguments(folder: &Path) -> Vec<String> {
     let chapter = chapter();
-    let begin = chapter.find("4. `cargo run -p acm-train -- ").expect("the command of step 4");
-    let command = chapter[begin..].split('`').nth(1).unwrap();
-    let words = command.strip_prefix("cargo run -p acm-train -- ").unwrap().split(' ');
-    words.map(|word| word.replace("FOLDER", &folder.display().to_string())).collect()
+    let (_, command) = chapter.split_once("cargo run -p acm-train -- ").expect("the command");
+    let words = command.lines().next().unwrap_or_default().split(' ');
+    words.map(|word| word.replace("data=my-robot", &format!("data={}", folder.display()))).collect()
 }
 
 /// In a copy of the repository's experiments, as a user has them.

@@ -256,6 +256,7 @@ kind = "table"
 folder = "recordings"
 files = ["*.csv"]
 sequence = "name"
+decimal = "."
 time = "t"
 time_unit = "ms"
 inputs = ["x", "v"]
