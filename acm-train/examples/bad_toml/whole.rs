@@ -286,6 +286,9 @@ files = ["*.csv"]
 ignore = ["*.parquet"]
 folder = "data/arm"
 separator = ","
+angles = []
+counters = { h = 65536.0 }
+quaternions = [["u", "h", "x", "y"]]
 [table.trial]
 file = "(.*)"
 [table.time]
@@ -299,6 +302,7 @@ name = "q1"
 column = "h"
 unit = "m"
 quantity = "altitude"
+fill = "previous"
 [[measured]]
 column = "x"
 unit = "mm"
