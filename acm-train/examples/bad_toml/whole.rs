@@ -256,6 +256,7 @@ kind = "table"
 folder = "recordings"
 files = ["*.csv"]
 sequence = "name"
+separator = ","
 decimal = "."
 time = "t"
 time_unit = "ms"

@@ -318,6 +318,9 @@ fn tables(question: &Question, asked: &Tables) -> Option<Fault> {
         let help = "delete it, or name the column that it is of";
         return Some(Fault::new("data.time_unit", "is set without data.time or data.elapsed", help));
     }
+    if let Some(wrong) = asked.wrong_sign() {
+        return Some(Fault::new(&format!("data.{}", wrong.key), format!("is {:?}", wrong.value), wrong.remedy));
+    }
     if asked.ahead > 1 {
         let help = "write 0 for the row itself, or 1 for the next";
         return Some(Fault::new("data.ahead", format!("is {}", asked.ahead), help));

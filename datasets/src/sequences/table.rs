@@ -30,6 +30,7 @@ pub use window::{Windows, whole};
 use super::{Asked, SequenceSet};
 use crate::checks::plausible::wrong_step;
 use crate::error::{DataError, Problems};
+use crate::ingest::recording::csv::signs::{WrongSign, wrong_sign};
 use crate::ingest::recording::{self, Recording, TimeColumn, Wanted};
 use crate::join::median;
 use crate::units::{Dimension, Unit};
@@ -112,6 +113,11 @@ impl Tables {
     pub fn unit_of_time(&self) -> Option<Unit> {
         let unit = Unit::parse(self.time_unit.as_deref().unwrap_or("s")).ok()?;
         (unit.dimension == Dimension::Time).then_some(unit)
+    }
+
+    /// Returns what is wrong with `separator` or `decimal`.
+    pub fn wrong_sign(&self) -> Option<WrongSign> {
+        wrong_sign(self.separator.as_deref(), self.decimal.as_deref())
     }
 
     /// Returns whether a folder has a file of each pattern.

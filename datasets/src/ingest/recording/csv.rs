@@ -17,6 +17,7 @@ mod instant;
 mod layout;
 pub(crate) mod missing;
 pub(crate) mod rows;
+pub(crate) mod signs;
 pub(crate) mod text;
 mod units;
 

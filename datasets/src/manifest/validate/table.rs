@@ -1,6 +1,7 @@
 //! Tables: files, names of trials, time.
 
 use super::Check;
+use crate::ingest::recording::csv::signs::wrong_sign;
 use crate::manifest::{Manifest, Time, TrialName};
 use crate::units::Dimension;
 
@@ -36,18 +37,9 @@ impl Check<'_> {
 
     /// Separators of cells and before fractions.
     pub(super) fn signs(&mut self, key: &[&str], separator: Option<&str>, decimal: Option<&str>) {
-        if let Some(separator) = separator.filter(|s| ![",", ";", "\t", "|", " "].contains(s)) {
-            let message =
-                format!("separator {separator:?} is not one of \",\" \";\" \"\\t\" \"|\" and a space; choose one");
-            self.say(&[key, &["separator"]].concat(), message);
-        }
-        if let Some(decimal) = decimal.filter(|decimal| ![",", "."].contains(decimal)) {
-            self.say(
-                &[key, &["decimal"]].concat(),
-                format!("decimal {decimal:?} is neither \",\" nor \".\"; choose one"),
-            );
-        } else if decimal.is_some() && decimal == separator {
-            self.say(&[key, &["decimal"]].concat(), "`separator` and `decimal` are the same sign; correct one of them");
+        if let Some(wrong) = wrong_sign(separator, decimal) {
+            let message = format!("{} {:?} cannot be used; {}", wrong.key, wrong.value, wrong.remedy);
+            self.say(&[key, &[wrong.key]].concat(), message);
         }
     }
 
