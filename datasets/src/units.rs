@@ -153,6 +153,11 @@ impl Unit {
         self.numerator / self.denominator
     }
 
+    /// A full turn in this unit; none if it is not a unit of angles.
+    pub fn full_turn(&self) -> Option<f64> {
+        (self.dimension == Dimension::Angle).then(|| std::f64::consts::TAU / self.factor())
+    }
+
     /// The other units of the same dimension.
     pub fn siblings(&self) -> impl Iterator<Item = &'static Unit> + use<> {
         let unit = *self;

@@ -33,10 +33,7 @@ pub(crate) fn warnings(columns: &[Column], place: &Place) -> Vec<String> {
 }
 
 fn wraps(column: &Column, place: &Place) -> Option<String> {
-    let turn = column
-        .unit
-        .filter(|unit| unit.dimension == Dimension::Angle)
-        .map(|unit| 2.0 * std::f64::consts::PI / unit.factor());
+    let turn = column.unit.and_then(|unit| unit.full_turn());
     let found = find(column.values, turn)?;
     let (name, period, table) = (column.name, number(found.period), &place.table);
     let (what, key) = match turn {

@@ -1,4 +1,4 @@
-//! Summary of each column of a file: what a draft needs to know about the values, without the values.
+//! Summary of each column of a file: what a draft needs to know about the values, with the first of them.
 //!
 //! [`columns`] is the only function here that knows how files are read.
 
@@ -15,14 +15,14 @@ use crate::ingest::recording::{Cells, Content, DataFile, Held, TimeColumn, Wante
 /// Longer lists of rows are not kept.
 const LISTED: usize = 4096;
 
-/// Steps from value to value that are kept.
+/// Values that are kept, from the first.
+const KEPT: usize = 1 << 17;
+
+/// Steps from value to value that show the pace.
 const STEPS: usize = 1000;
 
 /// Foreign files above this size, in bytes, are read for names and units alone.
 const LARGE: u64 = 1 << 28;
-
-/// Ranges of values that start again at their other end: a full turn in rad and deg, counters of 8, 16 and 32 bits.
-const PERIODS: [f64; 5] = [std::f64::consts::TAU, 360.0, 256.0, 65_536.0, 4_294_967_296.0];
 
 /// One column of one file.
 #[derive(Debug, Clone)]
@@ -43,12 +43,10 @@ pub(super) struct Look {
     pub falls: Option<Vec<usize>>,
     /// Rows where runs of equal cells begin, and those cells; none where they are too many.
     pub runs: Option<Vec<(usize, String)>>,
+    /// The first numbers; a large file must not fill the memory.
+    pub values: Vec<f64>,
     texts: usize,
-    moves: usize,
     stays: usize,
-    steps: Vec<f64>,
-    /// Of each of [`PERIODS`]: steps of about a period, and steps between a quarter and three quarters of one.
-    wraps: [(usize, usize); 5],
     last: Option<f64>,
 }
 
@@ -160,11 +158,9 @@ impl Look {
             whole: true,
             falls: Some(Vec::new()),
             runs: Some(Vec::new()),
+            values: Vec::new(),
             texts: 0,
-            moves: 0,
             stays: 0,
-            steps: Vec::new(),
-            wraps: [(0, 0); 5],
             last: None,
         }
     }
@@ -196,6 +192,9 @@ impl Look {
         }
         (self.low, self.high) = (self.low.min(value), self.high.max(value));
         self.whole &= value.fract() == 0.0;
+        if self.values.len() < KEPT {
+            self.values.push(value);
+        }
         if let Some(last) = self.last.replace(value) {
             self.step(value - last);
         }
@@ -207,16 +206,7 @@ impl Look {
             let row = self.rows - 1;
             self.falls.iter_mut().for_each(|rows| rows.push(row));
         }
-        self.moves += usize::from(step != 0.0);
         self.stays += usize::from(step == 0.0);
-        if self.steps.len() < STEPS {
-            self.steps.push(step);
-        }
-        for (period, (about, between)) in PERIODS.into_iter().zip(&mut self.wraps) {
-            let share = step.abs() / period;
-            *about += usize::from((0.75..=1.001).contains(&share));
-            *between += usize::from((0.25..0.75).contains(&share));
-        }
     }
 
     fn run(&mut self, is_new: bool, cell: impl FnOnce() -> String) {
@@ -240,7 +230,7 @@ impl Look {
 
     /// Median step from value to value, where nine steps of ten are about as long.
     pub fn pace(&self) -> Option<f64> {
-        let mut steps = self.steps.clone();
+        let mut steps: Vec<f64> = self.values.windows(2).take(STEPS).map(|pair| pair[1] - pair[0]).collect();
         steps.sort_by(f64::total_cmp);
         let median = steps.get(steps.len() / 2).copied().filter(|step| *step > 0.0)?;
         let alike = steps.iter().filter(|step| (0.5 * median..=1.5 * median).contains(*step)).count();
@@ -254,15 +244,5 @@ impl Look {
         let count = falls.iter().filter(|row| starts.binary_search(row).is_err()).count();
         let (falls, stays) = if damaged { (self.rows.max(200) / 100, self.rows / 2) } else { (0, 0) };
         self.rows > self.empty + 1 && count <= falls && self.stays <= stays
-    }
-
-    /// The period at which the value starts again at its other end.
-    pub fn period(&self) -> Option<f64> {
-        let fits = |(period, (about, between)): &(f64, (usize, usize))| {
-            let is_kind = if *period < 10.0 { !self.whole } else { self.whole || *period == 360.0 };
-            let fills = (0.75 * period..=1.001 * period).contains(&(self.high - self.low));
-            is_kind && fills && *about > 0 && *between == 0 && self.moves > 4 * about
-        };
-        PERIODS.into_iter().zip(self.wraps).find(fits).map(|(period, _)| period)
     }
 }

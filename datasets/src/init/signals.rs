@@ -2,13 +2,13 @@
 //! inputs and outputs.
 
 use std::collections::BTreeMap;
-use std::f64::consts::TAU;
 
 use super::column::Column;
 use super::found::Found;
 use super::names;
 use super::time::Time;
-use crate::units::{Dimension, Unit};
+use crate::ingest::periodic;
+use crate::units::Unit;
 
 /// Words of commands and words of measurements: strong ones, and weak ones that tell where no strong one does.
 const WORDS: [(Part, &str); 4] = [
@@ -96,16 +96,7 @@ impl<'a> Signal<'a> {
         let told = told_of(source, of.name);
         let open = flaw.is_some() || (told == Part::Actuator && of.empty() > 0);
         let part = if open { Part::Unknown } else { told };
-        let period = of.looks.iter().find_map(|look| look.period());
-        let (period, unit) = match (period, said) {
-            (Some(360.0), None) => (period, Some("deg")),
-            (Some(turn), None) if turn.fract() != 0.0 => (period, Some("rad")),
-            // in another unit it is no period
-            (Some(turn), Some(unit)) => {
-                (period.filter(|_| full_turn(unit).is_some_and(|full| (full / turn - 1.0).abs() < 1e-6)), said)
-            }
-            _ => (period, said),
-        };
+        let (period, unit) = period(&of, said);
         Signal { of, source, unit, part, period, flaw, is_reference }
     }
 
@@ -130,9 +121,22 @@ impl<'a> Signal<'a> {
     }
 }
 
+/// The period by which a column jumps, and its unit: one without a unit is tried as an angle, then as a counter.
+fn period<'a>(of: &Column<'a>, unit: Option<&'a str>) -> (Option<f64>, Option<&'a str>) {
+    let jumps = |turn| of.looks.iter().find_map(|look| periodic::find(&look.values, turn)).map(|wraps| wraps.period);
+    let angle = |unit| full_turn(unit).and_then(|turn| jumps(Some(turn)));
+    match unit {
+        Some(unit) => (angle(unit), Some(unit)),
+        None => match ["rad", "deg"].into_iter().find_map(|unit| Some((angle(unit)?, unit))) {
+            Some((turn, unit)) => (Some(turn), Some(unit)),
+            None => (jumps(None), None),
+        },
+    }
+}
+
 /// A full turn in a unit of angles.
 fn full_turn(unit: &str) -> Option<f64> {
-    Unit::parse(unit).ok().filter(|unit| unit.dimension == Dimension::Angle).map(|unit| TAU / unit.factor())
+    Unit::parse(unit).ok()?.full_turn()
 }
 
 /// Outputs are those of the reference; of motion capture and logs a few, the tip's first.

@@ -374,8 +374,7 @@ impl Manifest {
     /// A full turn in the unit of an angle.
     pub(crate) fn turn(&self, name: &str) -> Option<f64> {
         let (.., unit) = self.signal_columns().into_iter().find(|(_, _, column, _)| column == name)?;
-        let unit = Unit::parse(&unit).ok().filter(|unit| unit.dimension == Dimension::Angle)?;
-        Some(2.0 * std::f64::consts::PI / unit.factor())
+        Unit::parse(&unit).ok()?.full_turn()
     }
 
     /// The nominal model that it describes: the strain model of its arm, or a polynomial.
