@@ -147,12 +147,12 @@ fn what_is_no_experiment_is_refused_at_once() {
         fs::write(folder.path().join("empty.toml"), text).unwrap();
         refused("empty.toml", &["empty.toml:1:1", what, "experiments/cfc.toml"]);
     }
-    refused(".", &["this is no file but a folder"]);
+    refused(".", &["this is a folder, not a file"]);
     #[cfg(unix)]
     {
         let pipe = folder.path().join("pipe.toml");
         assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
-        refused("pipe.toml", &["pipe.toml: this is no file but a named pipe"]);
+        refused("pipe.toml", &["pipe.toml: this is a named pipe, not a file"]);
     }
 }
 

@@ -20,7 +20,7 @@ pub struct Entry {
     pub samples: usize,
     /// Largest number of samples that lead up to one of them without a gap, including those without an output.
     pub longest: usize,
-    /// Longest step in time that is no gap, s.
+    /// Longest step in time that is not a gap, s.
     pub max_gap: f64,
     /// Mean and spread of each actuator, then of each context signal.
     pub levels: Vec<Level>,

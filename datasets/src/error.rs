@@ -226,9 +226,9 @@ pub enum DataError {
     Unjoined { at: String, trial: String, of: String, what: String },
 
     #[error(
-        "{path}, column `{column}`: the file has the unit {written:?}, and the manifest {told:?}; correct the unit"
+        "{path}, column `{column}`: the file has the unit {written:?}, and the manifest {declared:?}; correct the unit"
     )]
-    OtherUnit { path: PathBuf, column: String, written: String, told: String },
+    OtherUnit { path: PathBuf, column: String, written: String, declared: String },
 
     #[error("{path}: not supported: {what}; {remedy}")]
     Unsupported { path: PathBuf, what: String, remedy: &'static str },
@@ -303,12 +303,12 @@ impl DataError {
     }
 
     /// A column whose file says another unit than the manifest.
-    pub(crate) fn other_unit(path: &Path, column: &str, written: Option<&String>, told: &str) -> Option<Self> {
-        let (a, b) = (Unit::parse(written?).ok()?, Unit::parse(told).ok()?);
+    pub(crate) fn other_unit(path: &Path, column: &str, written: Option<&String>, declared: &str) -> Option<Self> {
+        let (a, b) = (Unit::parse(written?).ok()?, Unit::parse(declared).ok()?);
         let same = a.dimension == b.dimension && a.factor() == b.factor();
-        let (path, column, written, told) =
-            (path.to_path_buf(), column.to_string(), written?.clone(), told.to_string());
-        (!same).then_some(DataError::OtherUnit { path, column, written, told })
+        let (path, column, written, declared) =
+            (path.to_path_buf(), column.to_string(), written?.clone(), declared.to_string());
+        (!same).then_some(DataError::OtherUnit { path, column, written, declared })
     }
 
     /// Where further cells with the same problem are noted, if it can have them.

@@ -113,6 +113,6 @@ fn a_pipe_is_no_file() {
         assert!(std::process::Command::new("mkfifo").arg(&path).status().expect("mkfifo").success());
         let (code, message) = check(&set);
         assert_eq!(code, expected, "{message}");
-        assert!(message.contains(file) && message.contains("this is no file but a named pipe"), "{message}");
+        assert!(message.contains(file) && message.contains("this is a named pipe, not a file"), "{message}");
     }
 }

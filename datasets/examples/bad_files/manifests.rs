@@ -266,7 +266,7 @@ fn links() -> Vec<Case> {
         ));
         cases.push(case(
             "a device in the place of the manifest",
-            Said::of(2, "manifest.toml", &["this is no file"]),
+            Said::of(2, "manifest.toml", &["not a file"]),
             |set| {
                 std::fs::remove_file(set.file("data/manifest.toml"))?;
                 symlink("/dev/zero", set.file("data/manifest.toml"))

@@ -25,7 +25,7 @@ pub fn claim(path: &Path, is_own: impl Fn(&[u8]) -> bool) -> Result<(), DataErro
         Err(error) => return Err(DataError::file_system("read", path, &error)),
         Ok(true) if head.is_empty() || is_own(&head) => return Ok(()),
         Ok(true) => "this command did not write this file, which would be lost",
-        Ok(false) => "this is there, and is no file",
+        Ok(false) => "this exists, and is not a file",
     };
     Err(DataError::Usage(format!("{}: {what}; give another name or folder, or move it away", path.display())))
 }

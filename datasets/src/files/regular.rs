@@ -7,12 +7,12 @@ use std::path::Path;
 /// Opens a regular file.
 ///
 /// # Errors
-/// What the file system says; a path that is no file.
+/// What the file system says; a path that is not a file.
 pub fn open(path: &Path) -> io::Result<File> {
     let kind = fs::metadata(path)?.file_type();
     match kind.is_file() {
         true => File::open(path),
-        false => Err(io::Error::new(io::ErrorKind::IsADirectory, format!("this is no file but {}", name(kind)))),
+        false => Err(io::Error::new(io::ErrorKind::IsADirectory, format!("this is {}, not a file", name(kind)))),
     }
 }
 
@@ -57,18 +57,18 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_no_file_is_refused_at_once() {
+    fn a_folder_or_a_pipe_is_refused_at_once() {
         let folder = tempfile::tempdir().unwrap();
         let refused = |path: &Path| open(path).unwrap_err().to_string();
-        assert_eq!(refused(folder.path()), "this is no file but a folder");
+        assert_eq!(refused(folder.path()), "this is a folder, not a file");
         fs::write(folder.path().join("a"), "text").unwrap();
         assert_eq!(read_to_string(&folder.path().join("a")).unwrap(), "text");
         #[cfg(unix)]
         {
             let pipe = folder.path().join("pipe");
             assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
-            assert_eq!(refused(&pipe), "this is no file but a named pipe");
-            assert_eq!(refused(Path::new("/dev/zero")), "this is no file but a device");
+            assert_eq!(refused(&pipe), "this is a named pipe, not a file");
+            assert_eq!(refused(Path::new("/dev/zero")), "this is a device, not a file");
         }
     }
 }

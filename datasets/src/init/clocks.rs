@@ -26,7 +26,7 @@ pub(super) struct Located {
     pub found: String,
 }
 
-/// The columns by which the clock of a source can be estimated; none where nothing moves together.
+/// The columns by which the clock of a source can be estimated; `None` if nothing moves together.
 pub(super) fn located(folder: &Path, reference: &Found, outputs: &[String], source: &Found) -> Option<Located> {
     let first = reference.files.iter().find(|file| source.file(reference.trial(file)).is_some())?;
     let trial = reference.trial(first);

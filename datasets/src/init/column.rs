@@ -27,7 +27,7 @@ impl Column<'_> {
         self.looks.iter().all(|look| look.whole && look.rises(&[], false) && look.pace() == Some(1.0))
     }
 
-    /// Why it is no signal.
+    /// Why it cannot be a signal.
     pub fn flaw(&self) -> Option<String> {
         let low = self.looks.iter().map(|look| look.low).fold(f64::INFINITY, f64::min);
         let high = self.looks.iter().map(|look| look.high).fold(f64::NEG_INFINITY, f64::max);

@@ -39,9 +39,9 @@ pub(super) struct Look {
     pub high: f64,
     /// All numbers are integers.
     pub whole: bool,
-    /// Rows whose value is below the one before; none where they are too many.
+    /// Rows whose value is below the one before; `None` if they are too many.
     pub falls: Option<Vec<usize>>,
-    /// Rows where runs of equal cells begin, and those cells; none where they are too many.
+    /// Rows where runs of equal cells begin, and those cells; `None` if they are too many.
     pub runs: Option<Vec<(usize, String)>>,
     /// The first numbers; a large file must not fill the memory.
     pub values: Vec<f64>,
@@ -218,7 +218,7 @@ impl Look {
         }
     }
 
-    /// Rows where runs of equal cells begin; none where they are too many.
+    /// Rows where runs of equal cells begin; `None` if they are too many.
     pub fn starts(&self) -> Vec<usize> {
         self.runs.iter().flatten().map(|(row, _)| *row).collect()
     }

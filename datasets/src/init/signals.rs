@@ -49,26 +49,26 @@ pub(super) struct Signal<'a> {
     pub unit: Option<&'a str>,
     pub part: Part,
     pub period: Option<f64>,
-    /// Why it is no signal.
+    /// Why it cannot be a signal.
     pub flaw: Option<String>,
     is_reference: bool,
 }
 
-fn told(name: &str) -> Part {
+fn named(name: &str) -> Part {
     let words = names::words(name);
     let part = WORDS.iter().find(|(_, list)| names::any(&words, list)).map_or(Part::Unknown, |(part, _)| *part);
     if names::any(&words, NEITHER) { Part::Unknown } else { part }
 }
 
-/// As [`told`]; a name that says nothing is what its group's is.
-fn told_of(source: &Found, name: &str) -> Part {
-    let silent = told(name) == Part::Unknown && !names::any(&names::words(name), NEITHER);
-    told(if silent { &source.name } else { name })
+/// As [`named`]; a name that says nothing is what its group's is.
+fn part_of(source: &Found, name: &str) -> Part {
+    let silent = named(name) == Part::Unknown && !names::any(&names::words(name), NEITHER);
+    named(if silent { &source.name } else { name })
 }
 
 /// Number of commands minus number of measurements, judged by the names of a group and of its columns.
 pub(super) fn commands(found: &Found) -> i32 {
-    let vote = |name: &str| match told(name) {
+    let vote = |name: &str| match named(name) {
         Part::Actuator => 1,
         Part::Measured => -1,
         Part::Unknown => 0,
@@ -93,9 +93,9 @@ pub(super) fn signals<'a>(sources: &'a [Found], times: &[Option<Time>], trial: O
 impl<'a> Signal<'a> {
     fn new(source: &'a Found, of: Column<'a>, is_reference: bool) -> Signal<'a> {
         let (flaw, said) = (of.flaw(), of.looks.iter().find_map(|look| look.unit.as_deref()));
-        let told = told_of(source, of.name);
-        let open = flaw.is_some() || (told == Part::Actuator && of.empty() > 0);
-        let part = if open { Part::Unknown } else { told };
+        let named = part_of(source, of.name);
+        let open = flaw.is_some() || (named == Part::Actuator && of.empty() > 0);
+        let part = if open { Part::Unknown } else { named };
         let (period, unit) = period(&of, said);
         Signal { of, source, unit, part, period, flaw, is_reference }
     }

@@ -109,7 +109,7 @@ fn name_apart(groups: &mut [Found]) {
 }
 
 impl Found {
-    /// Duration of all its files, s; none where no column is time.
+    /// Duration of all its files, s; `None` if no column is time.
     fn duration(&self) -> Option<f64> {
         let time = time::of(self, None)?;
         let factor = Unit::parse(time.unit.as_deref().unwrap_or("s")).map_or(1.0, |unit| unit.factor());
@@ -118,7 +118,7 @@ impl Found {
         Some(looks.iter().map(|look| factor * (look.high - look.low)).sum())
     }
 
-    /// Why its one file does not hold all trials of the reference; none where it may.
+    /// Why its one file does not hold all trials of the reference; `None` if it may.
     fn unlike(&self, reference: &Found) -> bool {
         match (self.duration(), reference.duration()) {
             _ if self.files.len() > 1 => true,

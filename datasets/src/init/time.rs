@@ -97,10 +97,10 @@ pub(super) fn trials(found: &Found) -> Option<(String, BTreeSet<String>)> {
         let fall = |other: &Column| (0..other.files).all(|k| other.looks[k].falls.as_ref() == Some(&own(k)));
         columns.iter().any(|other| other.is_sound() && fall(other))
     };
-    let told = |column: &Column| names::any(&names::words(column.name), TRIAL);
+    let is_named = |column: &Column| names::any(&names::words(column.name), TRIAL);
     let possible = columns.iter().filter(|column| column.is_sound() && column.looks.iter().all(|look| look.is_label()));
     let all: Vec<_> = possible.filter_map(|column| Some((column, names_in(column)?))).collect();
-    let (column, names) = all.iter().find(|(c, _)| told(c)).or_else(|| all.iter().find(|(c, _)| restarts(c)))?;
+    let (column, names) = all.iter().find(|(c, _)| is_named(c)).or_else(|| all.iter().find(|(c, _)| restarts(c)))?;
     Some((column.name.to_string(), names.clone()))
 }
 

@@ -46,7 +46,7 @@ pub fn in_order(time: &[f64], log: bool) -> Result<Vec<usize>, Jump> {
     Ok(order)
 }
 
-/// First and last stamp of the most that no long pause separates; none where that is all of them.
+/// First and last stamp of the most that no long pause separates; `None` if that is all of them.
 fn usual(time: &[f64]) -> Option<(f64, f64)> {
     let longest = longest_pause(Series { time: time.to_vec(), values: Vec::new() }.step());
     let far = |a: f64, b: f64| !((b - a).abs() <= longest);

@@ -212,8 +212,8 @@ impl Plan {
         let of_source = |(i, source): (usize, &Source)| {
             let path = self.folder.join(&self.trials[trial].1[i]);
             let check = |(column, written): (&String, &String)| {
-                let told = self.units.get(&format!("{}.{column}", source.name))?;
-                DataError::other_unit(&path, column, Some(written), told)
+                let declared = self.units.get(&format!("{}.{column}", source.name))?;
+                DataError::other_unit(&path, column, Some(written), declared)
             };
             signals[i].units.iter().filter_map(check).collect::<Vec<_>>()
         };

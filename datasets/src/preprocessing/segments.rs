@@ -9,10 +9,10 @@ use std::ops::Range;
 /// Number of usual steps that a gap exceeds.
 pub(crate) const GAP_STEPS: f64 = 5.0;
 
-/// A step in time up to this one is no gap, s.
+/// A step in time up to this one is not a gap, s.
 const SHORTEST_GAP: f64 = 0.5;
 
-/// Returns the longest step in time that is no gap, s: as given, or else from the usual step of the samples, s.
+/// Returns the longest step in time that is not a gap, s: as given, or else from the usual step of the samples, s.
 pub fn max_gap(given: Option<f64>, usual_step: f64) -> f64 {
     let steps = GAP_STEPS * usual_step;
     given.unwrap_or_else(|| format!("{steps:.1e}").parse().unwrap_or(steps).max(SHORTEST_GAP))

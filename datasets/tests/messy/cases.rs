@@ -117,7 +117,7 @@ fn separators() -> Vec<Case> {
         right("semicolons and decimal commas", other(';', ',')),
         right("tabs and decimal commas", other('\t', ',')),
         told(right("semicolons that are told", other(';', '.')), "separator = \";\"\n"),
-        told(right("decimal commas that are told", other(';', ',')), "separator = \";\"\ndecimal = \",\"\n"),
+        told(right("decimal commas that the manifest gives", other(';', ',')), "separator = \";\"\ndecimal = \",\"\n"),
         refused(
             "decimal commas in a table with commas",
             "t,q,y\n0,0,5,10\n0.1,0,25,20\n",
@@ -132,7 +132,10 @@ fn separators() -> Vec<Case> {
         ),
         right("three digits behind a point between commas", thousands),
         told(
-            right("thousands in groups that are told", "t,q,y\n0,0.5,10\n0.1,0.25,20\n0.2,1.5,30\n0.3,-2,\"0,040\"\n"),
+            right(
+                "thousands in groups that the manifest gives",
+                "t,q,y\n0,0.5,10\n0.1,0.25,20\n0.2,1.5,30\n0.3,-2,\"0,040\"\n",
+            ),
             "decimal = \".\"\n",
         ),
         refused(

@@ -8,7 +8,7 @@
 //!    off from it widens the interval.
 //!
 //! It cannot be distinguished from a dead time: where the source commands what the reference measures, the offset includes the plant's
-//! delay at the rates of the motion. A lag is told from a delay where the motion is fast enough: [`super::lag`].
+//! delay at the rates of the motion. A lag can be distinguished from a delay where the motion is fast enough: [`super::lag`].
 
 use super::correlate::{POINTS, PRODUCTS, Peak, correlate};
 use super::lag::largest_lag;

@@ -61,7 +61,7 @@ impl Evidence {
         self,
         path: &Path,
         separator: char,
-        told: Option<char>,
+        given: Option<char>,
         notes: &mut Vec<String>,
     ) -> Result<Decimal, DataError> {
         let refuse = |(row, column, cell): Shown, what: String| {
@@ -71,8 +71,8 @@ impl Evidence {
         };
         let two = || "may be a fraction or more than a thousand".to_string();
         let Evidence { comma, point } = self;
-        let is_comma = match (told, comma.fraction) {
-            (Some(told), _) => told == ',',
+        let is_comma = match (given, comma.fraction) {
+            (Some(given), _) => given == ',',
             (None, Some((_, _, written))) if separator != ',' => match point.fraction.or(point.either) {
                 Some(point) => return refuse(point, format!("has a point, and {written:?} has a comma")),
                 None => true,
@@ -84,7 +84,7 @@ impl Evidence {
             },
         };
         notes.extend(is_comma.then(|| "numbers have a decimal comma".to_string()));
-        Ok(Decimal { comma: is_comma, thousands: told.is_some() })
+        Ok(Decimal { comma: is_comma, thousands: given.is_some() })
     }
 }
 
@@ -132,17 +132,17 @@ fn is_grouped(cell: &str, sign: char) -> bool {
 mod tests {
     use super::*;
 
-    fn decide(cells: &[&str], separator: char, told: Option<char>) -> Result<Decimal, String> {
+    fn decide(cells: &[&str], separator: char, given: Option<char>) -> Result<Decimal, String> {
         let mut evidence = Evidence::default();
         cells.iter().enumerate().for_each(|(i, cell)| evidence.see(i + 2, "q", cell));
-        evidence.decide(Path::new("a.csv"), separator, told, &mut Vec::new()).map_err(|e| e.to_string())
+        evidence.decide(Path::new("a.csv"), separator, given, &mut Vec::new()).map_err(|e| e.to_string())
     }
 
     /// Oracle: by hand.
     #[test]
     fn numbers_are_read_or_asked_for() {
-        let read = |cells: &[&str], separator, told| {
-            decide(cells, separator, told).map(|decimal| cells.iter().map(|c| decimal.number(c)).collect::<Vec<_>>())
+        let read = |cells: &[&str], separator, given| {
+            decide(cells, separator, given).map(|decimal| cells.iter().map(|c| decimal.number(c)).collect::<Vec<_>>())
         };
         assert_eq!(read(&["0,5", "1,234", "-3"], ';', None), Ok(vec![Some(0.5), Some(1.234), Some(-3.0)]));
         assert_eq!(read(&["0.020", "12.345"], ';', None), Ok(vec![Some(0.02), Some(12.345)]));

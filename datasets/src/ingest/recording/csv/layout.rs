@@ -37,14 +37,14 @@ struct View {
 /// A row of the first ones: number, cells, and the number of cells up to the last that is not empty.
 type Seen = (usize, Vec<String>, usize);
 
-/// Finds the layout of a text; a `told` separator is taken as it is.
+/// Finds the layout of a text; a `given` separator is taken as it is.
 ///
 /// # Errors
 /// Several separators that fit as well.
-pub(super) fn find(path: &Path, text: &str, told: Option<char>, wanted: &[&str]) -> Result<Layout, DataError> {
+pub(super) fn find(path: &Path, text: &str, given: Option<char>, wanted: &[&str]) -> Result<Layout, DataError> {
     let (named, skipped) = named(text);
     let head = head(text);
-    let tried = told.or(named).map_or(KNOWN.to_vec(), |separator| vec![separator]);
+    let tried = given.or(named).map_or(KNOWN.to_vec(), |separator| vec![separator]);
     let (mut views, mut refused) = (Vec::new(), None);
     for separator in tried {
         match view(path, head, separator, skipped, wanted) {
@@ -63,7 +63,7 @@ pub(super) fn find(path: &Path, text: &str, told: Option<char>, wanted: &[&str])
         let remedy = "write separator = \",\" or another in [table], [[source]] or [data]";
         return Err(DataError::BadText { path: path.to_path_buf(), row: 1, what, remedy });
     }
-    let first = Layout { separator: told.or(named).unwrap_or(','), before: skipped };
+    let first = Layout { separator: given.or(named).unwrap_or(','), before: skipped };
     Ok(views.iter().find(|view| view.fit == best).map_or(first, |view| view.layout))
 }
 
