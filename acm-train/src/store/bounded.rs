@@ -39,7 +39,7 @@ mod tests {
         fs::write(&path, [7; 10]).unwrap();
         assert_eq!(read(&path, 10).unwrap(), [7; 10]);
         assert!(read(&path, 9).unwrap_err().to_string().contains("10 bytes"));
-        assert!(read(folder.path(), 9).unwrap_err().to_string().contains("no file"));
+        assert!(read(folder.path(), 9).unwrap_err().to_string().contains("not a file"));
     }
 
     /// Ten gigabytes that lie in no memory: the file is sparse.

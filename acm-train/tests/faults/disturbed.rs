@@ -218,7 +218,7 @@ fn files_that_cannot_be_right_are_refused_unread() {
         let mut shell = Command::new("sh");
         shell.args(["-c", "ulimit -v 8000000; exec \"$0\" \"$@\""]).arg(run.get_program()).args(run.get_args());
         let output = shell.current_dir(question.path("")).output().unwrap();
-        refused(&output, &file.file_name().unwrap().to_string_lossy(), &["10737418240 bytes", "SHA-256", "no file"]);
+        refused(&output, &file.file_name().unwrap().to_string_lossy(), &["10737418240 bytes", "SHA-256", "not a file"]);
     };
     for file in [&table, &record] {
         let good = fs::read(file).unwrap();

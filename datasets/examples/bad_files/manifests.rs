@@ -24,7 +24,7 @@ const EDITS: &[Edit] = &[
     ("files =", "fiels =", 4, &["unknown field `fiels`", "did you mean `files`?"], 2),
     ("files =", "folder = \"../../etc\"\nfiles =", 4, &["leaves the shared data"], 2),
     ("files =", "folder = \"/etc\"\nfiles =", 4, &["leaves the shared data"], 2),
-    ("files =", "separator = \"::\"\nfiles =", 4, &["is not one of"], 2),
+    ("files =", "separator = \"::\"\nfiles =", 4, &["cannot be used"], 2),
     ("run_(.*)", "run_(", 5, &["no regular expression"], 2),
     ("run_(.*)", "run_.*", 5, &["has no group"], 2),
     ("run_(.*)", "(a{1000}){1000}", 5, &["no regular expression"], 2),
