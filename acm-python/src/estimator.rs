@@ -1,6 +1,6 @@
 //! A trained network beside Python: sample by sample, or a trial at once.
 
-use std::path::PathBuf;
+use std::path::Path;
 
 use acm_datasets::{Domain, files::regular};
 use acm_eval::{
@@ -116,8 +116,8 @@ fn of_folder(request: &Request, everywhere: bool) -> Result<(Estimator, Option<S
     Ok((Estimator::new(Robot::One(Box::new(one)), wiring, kept(domain), format!("{title}: {id}")), doubt))
 }
 
-/// Of a file that `acm-eval stream --save` wrote: names as it has them, SI units, and no domain.
-fn of_file(file: &PathBuf) -> PyResult<Estimator> {
+/// Loads a file that `acm-eval stream --save` wrote: its own names, SI units, no domain.
+fn of_file(file: &Path) -> PyResult<Estimator> {
     let bytes = regular::read(file).map_err(|error| of_eval(EvalError::read(file, error)))?;
     let unfit = |error: String| DataError::new_err(format!("{}: {error}", file.display()));
     let title = file.display().to_string();

@@ -22,6 +22,8 @@ pub struct Signals {
     pub columns: BTreeMap<String, (usize, Vec<f64>)>,
     /// Instants that columns share, s, increasing.
     pub axes: Vec<Axis>,
+    /// Instant of time 0 where the file has dates, ns since 1970.
+    pub origin: Option<i128>,
     /// Units of columns, as far as the file says them.
     pub units: BTreeMap<String, String>,
     /// Recognized properties and lost parts.
@@ -121,6 +123,7 @@ fn table(path: &Path, source: &Source, format: Format, columns: &BTreeSet<String
         read.numbers.get_mut(column).into_iter().for_each(|values| unwrap(values, *range));
     }
     let seconds = seconds(&read, time, counts);
+    signals.origin = read.ticks.as_ref().and_then(Ticks::origin);
     let name = time.column.as_deref().unwrap_or("time");
     let (raw, row) = (read.numbers.get(name).filter(|_| read.ticks.is_none()), |i| read.row(i));
     check_order((path, source), name, &seconds, raw.map(Vec::as_slice), read.ticks.as_ref(), &row)?;

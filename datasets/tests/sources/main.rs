@@ -2,6 +2,7 @@
 
 #![allow(missing_docs)]
 
+mod dated;
 mod lab;
 #[allow(dead_code)] // used by another test
 #[path = "../formats/ulog_file.rs"]

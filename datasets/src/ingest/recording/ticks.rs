@@ -48,6 +48,12 @@ impl Ticks {
         (self.kind.local && an_hour).then(|| format!("{hours:02}:{minutes:02}:{:06.3}", day % 60.0))
     }
 
+    /// First instant, ns since the origin of the type; durations have none.
+    pub fn origin(&self) -> Option<i128> {
+        let first = self.values.iter().find_map(|tick| *tick).filter(|_| !self.kind.duration)?;
+        Some(i128::from(first) * i128::from(self.kind.seconds) * 1_000_000_000 / i128::from(self.kind.per_second))
+    }
+
     /// Time of the samples of one trial, s; NaN for an empty cell.
     pub fn seconds(&self, samples: &[usize]) -> Vec<f64> {
         let first = samples.iter().find_map(|i| self.values[*i]).filter(|_| !self.kind.duration).unwrap_or(0);

@@ -148,7 +148,9 @@ pub fn align(trial: &str, source: &Source, both: &Both, start: f64) -> Result<Al
         Some(Drift::Word(_)) => None,
         None => Some(0.0),
     };
-    if source.clock != Some(Clock::Same) && !source.is_reference() {
+    if source.clock == Some(Clock::Same) {
+        found.offset = between_origins(both);
+    } else if !source.is_reference() {
         let offset = source.offset.as_ref().map(crate::manifest::Offset::table).unwrap_or_default();
         if let Some(value) = &offset.value {
             let value = value
@@ -175,6 +177,12 @@ pub fn align(trial: &str, source: &Source, both: &Both, start: f64) -> Result<Al
                 .into())
         }
     }
+}
+
+/// Offset of two files on one clock, s: a file with dates counts from its first one, any other from the clock's zero.
+fn between_origins(both: &Both) -> f64 {
+    let origin = |signals: &Signals| signals.origin.unwrap_or(0);
+    (origin(both.source) - origin(both.reference)) as f64 * 1e-9
 }
 
 fn estimated(found: &mut Alignment, offset: &OffsetTable, drift: Option<f64>, both: &Both) -> Result<(), String> {
