@@ -12,6 +12,12 @@ pub struct Case {
     pub said: Said,
 }
 
+impl Case {
+    pub fn new(name: impl Into<String>, said: Said, spoil: impl Fn(&Set) -> Result<()> + 'static) -> Case {
+        Case { name: name.into(), spoil: Box::new(spoil), said }
+    }
+}
+
 /// What a message must name.
 #[derive(Debug, Clone)]
 pub struct Said {
@@ -26,7 +32,7 @@ pub struct Said {
     pub words: Vec<String>,
 }
 
-/// How exactly a place is told.
+/// How exactly a place is named.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Place {
     /// File, row and column.
@@ -53,8 +59,9 @@ impl Said {
         Said { row: Some(row), ..self }
     }
 
+    /// An empty name is none.
     pub fn column(self, column: &str) -> Said {
-        Said { column: Some(column.into()), ..self }
+        Said { column: (!column.is_empty()).then(|| column.into()), ..self }
     }
 
     pub fn place(&self) -> Place {
@@ -90,8 +97,8 @@ impl Said {
         if message.len() > 4096 {
             lacks.push(format!("at most 4 kB (it has {} bytes)", message.len()));
         }
-        if message.contains("panicked") {
-            lacks.push("no panic".into());
+        if message.contains("panicked") || message.contains(|c: char| c.is_control() && c != '\n') {
+            lacks.push("no panic and no control character".into());
         }
         if self.place() != Place::Warning && !message.contains(';') && !message.contains(": correct") {
             lacks.push("a remedy".into());

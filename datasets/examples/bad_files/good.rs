@@ -40,6 +40,13 @@ impl Set {
         fs::write(path, contents)
     }
 
+    /// Replaces the first place of a text in a file, which must hold it.
+    pub fn edit(&self, name: &str, from: &str, to: &str) -> std::io::Result<()> {
+        let text = String::from_utf8_lossy(&self.read(name)?).into_owned();
+        assert!(text.contains(from), "{name} has no {from:?}");
+        self.write(name, text.replacen(from, to, 1))
+    }
+
     pub fn read(&self, name: &str) -> std::io::Result<Vec<u8>> {
         fs::read(self.file(name))
     }

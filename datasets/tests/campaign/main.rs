@@ -3,7 +3,6 @@
 #![allow(missing_docs)]
 
 mod describe;
-mod manifest;
 mod measured;
 mod parquet_types;
 mod problems;

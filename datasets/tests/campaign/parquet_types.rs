@@ -62,11 +62,13 @@ impl Asked {
         campaign.trials.into_iter().map(|trial| trial.time).collect()
     }
 
-    /// Exit code and message.
+    /// Code 3, and a message with these words.
     #[track_caller]
-    fn refused(&self) -> (u8, String) {
+    fn refused(&self, words: &[&str]) {
         let error = self.read().expect_err("it was read");
-        (error.exit_code(), error.to_string())
+        let message = error.to_string();
+        assert!(error.exit_code() == 3 && !message.contains("damaged"), "{message}");
+        assert!(words.iter().all(|part| message.contains(part)), "{words:?} in {message}");
     }
 }
 
@@ -160,7 +162,7 @@ fn durations_are_as_they_stand() {
 }
 
 #[test]
-fn a_unit_beside_a_type_of_time_is_not_used_and_told() {
+fn a_unit_beside_a_type_of_time_is_not_used_and_named() {
     let asked = |time| Asked { time, ..USUAL };
     let same = asked("{ column = \"timestamp_ms\", unit = \"ms\" }").set().campaign();
     assert_eq!(same.warnings, [""; 0]);
@@ -175,60 +177,36 @@ fn a_unit_beside_a_type_of_time_is_not_used_and_told() {
     ] {
         assert!(warning.contains(part), "{part} in {warning}");
     }
-    let (code, message) = asked("{ column = \"timestamp_ms\", unit = \"sample\", rate_hz = 100.0 }").refused();
-    assert_eq!(code, 3);
-    assert!(message.contains("timestamp[ms] are no sample numbers; leave `unit` and `rate_hz` out"), "{message}");
-    let (code, message) = asked("{ column = \"int64\" }").refused();
-    assert_eq!(code, 3);
-    assert!(
-        message.contains("column `int64`: its values are plain numbers") && message.contains("add unit = \"s\""),
-        "{message}"
-    );
-}
-
-#[test]
-fn an_instant_that_is_empty_is_told_in_its_row() {
-    let (code, message) = Asked { time: "{ column = \"timestamp_gap\" }", ..USUAL }.refused();
-    assert_eq!(code, 3);
-    assert!(message.contains("types.parquet, row 6, column `timestamp_gap`: the cell is empty"), "{message}");
+    let no_numbers = ["timestamp[ms] are no sample numbers; leave `unit` and `rate_hz` out"];
+    asked("{ column = \"timestamp_ms\", unit = \"sample\", rate_hz = 100.0 }").refused(&no_numbers);
+    asked("{ column = \"int64\" }").refused(&["column `int64`: its values are plain numbers", "add unit = \"s\""]);
+    let empty = "types.parquet, row 6, column `timestamp_gap`: the cell is empty";
+    asked("{ column = \"timestamp_gap\" }").refused(&[empty]);
 }
 
 #[test]
 fn what_is_not_read_is_named_by_type_and_column() {
-    let kinds = [
-        ("struct", "struct"),
-        ("map", "map"),
-        ("binary", "binary"),
-        ("fixed", "fixed_size_binary[4]"),
-        ("decimal256", "decimal(50, 2)"),
-    ];
-    for (output, kind) in kinds {
-        let (code, message) = Asked { output, ..USUAL }.refused();
-        assert_eq!(code, 3, "{message}");
-        let expected =
-            format!("types.parquet, column `{output}`: values of type {kind} are not numbers; write the column");
-        assert!(message.contains(&expected) && !message.contains("damaged"), "{message}");
+    let (numbers, times) = ("are not numbers; write the column", "are times and not numbers; name another");
+    for (output, kind, remedy) in [
+        ("struct", "struct", numbers),
+        ("map", "map", numbers),
+        ("binary", "binary", numbers),
+        ("fixed", "fixed_size_binary[4]", numbers),
+        ("decimal256", "decimal(50, 2)", numbers),
+        ("timestamp_us", "timestamp[us]", times),
+        ("duration_ms", "duration[ms]", times),
+        ("date32", "date32[day]", times),
+    ] {
+        let expected = format!("types.parquet, column `{output}`: values of type {kind} {remedy}");
+        Asked { output, ..USUAL }.refused(&[&expected]);
     }
-    for (output, kind) in
-        [("timestamp_us", "timestamp[us]"), ("duration_ms", "duration[ms]"), ("date32", "date32[day]")]
-    {
-        let (code, message) = Asked { output, ..USUAL }.refused();
-        assert_eq!(code, 3, "{message}");
-        assert!(
-            message.contains(&format!("`{output}`: values of type {kind} are times and not numbers; name another")),
-            "{message}"
-        );
-    }
-    let (_, message) = Asked { output: "words", ..USUAL }.refused();
-    assert!(
-        message.contains("row 1, column `words`: \"low\" is not a number, likewise 59 more (rows 2 to 60)"),
-        "{message}"
-    );
+    let low = "row 1, column `words`: \"low\" is not a number, likewise 59 more (rows 2 to 60)";
+    Asked { output: "words", ..USUAL }.refused(&[low]);
 }
 
 /// Two columns with a problem are two problems.
 #[test]
-fn all_columns_are_told_at_once() {
+fn all_columns_are_named_at_once() {
     let set = Asked { output: "list", ..USUAL }.set();
     set.edit(
         "manifest.toml",
@@ -236,7 +214,5 @@ fn all_columns_are_told_at_once() {
         "[[measured]]\ncolumn = \"binary\"\nunit = \"1\"\n[[measured]]\ncolumn = \"lost\"\nunit = \"1\"\n[roles]",
     );
     let message = set.error();
-    for column in ["`binary`", "column `lost` is missing"] {
-        assert!(message.contains(column), "{column} in {message}");
-    }
+    assert!(message.contains("`binary`") && message.contains("column `lost` is missing"), "{message}");
 }

@@ -33,23 +33,16 @@ fn values_are_si() {
     assert_eq!(campaign.tip_columns(), 0..1);
 }
 
-fn in_parquet() -> Set {
+#[test]
+fn csv_and_parquet_give_the_same_trials() {
     let set = with_manifest("[\"run_*.csv\"]", "[\"run_*.parquet\"]");
     for (i, name) in ["a", "b", "c", "d"].iter().enumerate() {
         std::fs::remove_file(set.file(&format!("run_{name}.csv"))).expect("remove");
         set::parquet(&set.file(&format!("run_{name}.parquet")), &set::rows(i));
     }
-    set
-}
-
-#[test]
-fn csv_and_parquet_give_the_same_trials() {
-    let strip = |set: Set| {
-        let mut trials = set.campaign().trials;
-        trials.iter_mut().for_each(|t| t.file = Default::default());
-        trials
-    };
-    assert_eq!(strip(Set::new()), strip(in_parquet()));
+    let (mut found, expected) = (set.campaign().trials, Set::new().campaign().trials);
+    found.iter_mut().zip(&expected).for_each(|(found, expected)| found.file = expected.file.clone());
+    assert_eq!(found, expected);
 }
 
 /// One table with a column of trial names, whose rows are mixed; text and numbers as names.
@@ -135,38 +128,6 @@ fn a_gap_is_relative_to_the_usual_step() {
     assert!(check(Some(0.5)).is_err_and(|text| text.contains("1 samples in one stretch without a gap over 0.5 s")));
 }
 
-/// Development trials a and b rest at two values; the others move.
-#[test]
-fn development_trials_at_rest_are_a_warning() {
-    let set = Set::new();
-    for (name, q, i) in [("a", 2.0, 0), ("b", 3.0, 1)] {
-        let mut rows = set::rows(i);
-        rows.iter_mut().for_each(|row| (row[1], row[2]) = (q, 20.0));
-        set.write(&format!("run_{name}.csv"), &set::csv(&rows));
-    }
-    let warns =
-        |set: &Set| set.campaign().warnings.iter().any(|text| text.contains("no development trial moves an actuator"));
-    assert!(warns(&set) && !warns(&Set::new()));
-}
-
-/// A spreadsheet's file: byte-order mark, CRLF, quotes, blanks, columns that nobody asked for, and a last line open.
-#[test]
-fn a_spreadsheets_csv_is_read() {
-    let rows = set::rows(1);
-    let line = |r: &[f64; 4]| format!("\"{}\", {} ,{},{},\"a, b\",x\r\n", r[0], r[1], r[2], r[3]);
-    let text = "\u{feff}\"t\",q, h ,\"y\",note,note\r\n".to_string() + &rows.iter().map(line).collect::<String>();
-    let set = Set::new();
-    set.write("run_b.csv", text.trim_end());
-    assert_eq!(set.campaign().trials, Set::new().campaign().trials);
-    let set = with_manifest("files =", "separator = \";\"\nfiles =");
-    for name in ["a", "b", "c", "d"] {
-        let file = format!("run_{name}.csv");
-        let text = std::fs::read_to_string(set.file(&file)).expect("read").replace(',', ";");
-        set.write(&file, &text);
-    }
-    assert_eq!(set.campaign().trials, Set::new().campaign().trials);
-}
-
 #[test]
 fn a_cut_makes_trials_of_their_own() {
     let set = with_manifest("\"a\", ", "");
@@ -220,25 +181,6 @@ fn the_same_bits_on_any_number_of_threads() {
     assert_eq!(read(1), read(4));
 }
 
-/// A tip 60 m away from the origin of an arm of 0.5 m: the warning names the unit that fits and its factor.
-#[test]
-fn a_unit_that_cannot_be_right_is_a_warning() {
-    let set = with_manifest("unit = \"mm\"", "unit = \"m\"");
-    set.edit("run_b.csv", "\n500,", "\n500,0,0,312\n510,");
-    let more: String = set.campaign().warnings.join("\n");
-    assert!(
-        more.contains(
-            "run_b.csv: column `y` of trial `b` reaches 312.0000 m; unit is m; did you mean mm? (factor 0.001)"
-        ),
-        "{more}"
-    );
-    let set = with_manifest("unit = \"deg\"", "unit = \"rad\"");
-    set.edit("run_b.csv", "\n500,", "\n500,400,0,0\n510,");
-    let warnings = set.campaign().warnings;
-    assert!(warnings[0].contains("`q`") && warnings[0].contains("did you mean deg? (factor 0.01745"), "{warnings:?}");
-    assert!(Set::new().campaign().warnings.is_empty());
-}
-
 /// A vehicle that travels 3 km, Euler angles of 300 rad, and a quaternion of length 3; where it hovers does not matter.
 #[test]
 fn a_vehicle_in_another_unit_is_a_warning() {
@@ -255,23 +197,28 @@ fn a_vehicle_in_another_unit_is_a_warning() {
     let angles =
         "position = [\"h\", \"h\", \"h\"]\nunit = \"cm\"\nattitude = [\"y\", \"y\", \"y\"]\nattitude_unit = \"rad\"";
     let turned = warnings(angles, "0,5,300");
-    let told = ["`y`", "reaches 300.0000", "unit is rad; did you mean deg?"];
-    assert!(told.iter().all(|words| turned[0].contains(words)), "{turned:?}");
+    let expected = ["`y`", "reaches 300.0000", "unit is rad; did you mean deg?"];
+    assert!(expected.iter().all(|words| turned[0].contains(words)), "{turned:?}");
     let quaternion = angles.replace("\"y\", \"y\"", "\"y\", \"y\", \"y\"").replace("\"rad\"", "\"1\"");
     assert!(warnings(&quaternion, "0,5,3").iter().any(|warning| warning.contains("reaches")));
 }
 
+/// Compressed tables too; text that is compressed with gzip is read.
 #[test]
 fn tables_that_no_pattern_matches_are_named() {
-    let set = Set::new();
-    set.write("walk_a.csv", "t\n").write("other.csv", "t\n");
-    set.edit("manifest.toml", "files =", "ignore = [\"oth*.csv\"]\nfiles =");
-    let warnings = set.campaign().warnings;
-    assert_eq!(warnings.len(), 1);
-    assert!(
-        warnings[0].contains("no pattern matches walk_a.csv; add a pattern to `files` or to `ignore`"),
-        "{warnings:?}"
-    );
+    for (name, expected) in [
+        ("walk_a.csv", "no pattern matches walk_a.csv; add a pattern to `files` or to `ignore`"),
+        ("run_e.csv.zst", "run_e.csv.zst is compressed and not read; decompress"),
+        ("run_e.csv.zip", "run_e.csv.zip is compressed and not read; decompress"),
+        ("run_e.csv.xz", "run_e.csv.xz is compressed and not read; decompress"),
+    ] {
+        let set = Set::new();
+        set.write(name, "t\n");
+        let warnings = set.campaign().warnings;
+        assert!(warnings.len() == 1 && warnings[0].contains(expected), "{warnings:?}");
+        set.edit("manifest.toml", "files =", "ignore = [\"walk*.csv\", \"*.csv.*\"]\nfiles =");
+        assert_eq!(set.campaign().warnings, [""; 0]);
+    }
 }
 
 #[test]

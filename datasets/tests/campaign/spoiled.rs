@@ -1,6 +1,8 @@
 //! Recordings that can be read and look spoiled: `acm-data check` warns with file, rows, columns, value and remedy, and what
 //! is only unusual has no warning.
 
+use std::ops::Range;
+
 use assert_cmd::Command;
 
 use super::set::Set;
@@ -56,7 +58,8 @@ fn rows(seed: usize) -> Vec<Row> {
 }
 
 fn csv(rows: &[Row]) -> String {
-    let line = |row: &Row| row.map(|value| value.to_string()).join(",") + "\n";
+    let cell = |value: f64| if value.is_nan() { String::new() } else { value.to_string() };
+    let line = |row: &Row| row.map(cell).join(",") + "\n";
     "t,q1,q2,x,y,z\n".to_string() + &rows.iter().map(line).collect::<String>()
 }
 
@@ -80,203 +83,157 @@ fn check(set: &Set) -> (i32, Vec<String>, String) {
     (output.status.code().unwrap_or(-1), warnings, text)
 }
 
-#[track_caller]
-fn warned(set: &Set, expected: &[&str]) {
-    let (code, warnings, text) = check(set);
-    assert_eq!((code, warnings.len()), (0, 1), "{text}");
-    for part in expected {
-        assert!(warnings[0].contains(part), "{part:?} in\n{}", warnings[0]);
-    }
+/// Holds the values of the first of some samples in some columns.
+fn hold(rows: &mut [Row], samples: Range<usize>, columns: Range<usize>) {
+    let held = rows[samples.start];
+    rows[samples].iter_mut().for_each(|row| row[columns.clone()].copy_from_slice(&held[columns.clone()]));
 }
 
-#[track_caller]
-fn silent(what: &str, set: &Set) {
-    let (code, warnings, text) = check(set);
-    assert_eq!((code, warnings.len()), (0, 0), "{what}: {text}");
-}
+/// What spoils trial `a`, and for each warning what it contains.
+type Case = (&'static str, fn(&mut Vec<Row>), &'static [&'static [&'static str]]);
 
-#[test]
-fn a_single_outlier_is_told_in_its_row() {
-    let one = spoiled(|rows| rows[310][4] += 5000.0);
-    let expected = [
-        "run_a.csv, row 312, column `y` of trial `a`",
-        "m stands alone, ",
-        "m away from the samples around",
-        "correct the cell",
-    ];
-    warned(&one, &expected);
-    let (_, warnings, _) = check(&one);
-    let away: f64 = warnings[0]
-        .split("stands alone, ")
-        .nth(1)
-        .and_then(|rest| rest.split(' ').next())
-        .map_or(0.0, |v| v.parse().unwrap_or(0.0));
-    assert!((away - 5.0).abs() < 0.05, "{warnings:?}");
-    let jump = spoiled(|rows| (3..6).for_each(|axis| rows[100][axis] -= 700.0));
-    warned(&jump, &["row 102, columns `x`, `y`, `z` of trial `a`"]);
-    let three = spoiled(|rows| [20, 21, 400].into_iter().for_each(|i| rows[i][3] = 2000.0));
-    warned(&three, &["run_a.csv, rows 22, 23, 402, column `x`", "2.0000 m and others stand alone"]);
-}
-
-#[test]
-fn a_frozen_stretch_is_told_with_its_rows() {
-    let marker = spoiled(|rows| {
-        let held = rows[200];
-        rows[200..350].iter_mut().for_each(|row| row[3..].copy_from_slice(&held[3..]));
-    });
-    let expected = [
-        "run_a.csv, rows 202 to 351, columns `x`, `y`, `z` of trial `a`",
-        "150 samples in a row are exactly",
-        "while the actuators move",
-        "leave these cells empty",
-    ];
-    warned(&marker, &expected);
-    let axis = spoiled(|rows| {
-        let held = rows[200][5];
-        rows[200..350].iter_mut().for_each(|row| row[5] = held);
-    });
-    warned(&axis, &["run_a.csv, rows 202 to 351, column `z` of trial `a`: 150 samples in a row are exactly -0."]);
-}
-
-#[test]
-fn markers_that_are_written_as_0_are_told() {
-    let lost = spoiled(|rows| [60, 61, 62, 63, 64, 420].into_iter().for_each(|i| rows[i][3..].fill(0.0)));
-    let expected = [
-        "run_a.csv, rows 62 to 66, 422, columns `x`, `y`, `z` of trial `a`",
-        "exactly 0 in 6 samples, and 0.",
-        "if the marker was lost, leave these cells empty",
-    ];
-    warned(&lost, &expected);
-    let long = spoiled(|rows| rows[100..250].iter_mut().for_each(|row| row[3..].fill(0.0)));
-    warned(&long, &["rows 102 to 251", "exactly 0 in 150 samples"]);
-}
-
-/// Everything at once, and the rows of lost markers are skipped in the count.
-#[test]
-fn all_that_looks_spoiled_is_told_at_once() {
-    let set = spoiled(|rows| {
-        rows[50][4] += 5000.0;
-        rows[100][3..].fill(0.0);
-        let held = rows[300];
-        rows[300..450].iter_mut().for_each(|row| row[3..].copy_from_slice(&held[3..]));
-    });
-    let text = std::fs::read_to_string(set.file("run_a.csv")).expect("read");
-    let line = text.lines().nth(11).expect("row 12");
-    set.edit("run_a.csv", line, &(line[..line.rfind(',').expect("a comma")].to_string() + ","));
-    let (_, warnings, text) = check(&set);
-    assert_eq!(warnings.len(), 3, "{text}");
-    for (warning, place) in warnings.iter().zip(["row 102, columns", "rows 302 to 451, columns", "row 52, column `y`"])
-    {
-        assert!(warning.contains(place), "{place} in {warning}");
-    }
-}
-
-#[test]
-fn what_is_only_unusual_has_no_warning() {
-    silent("as it is", &spoiled(|_| ()));
-    silent(
+const CASES: &[Case] = &[
+    (
+        "an outlier",
+        |rows| rows[310][4] += 5000.0,
+        &[&[
+            "run_a.csv, row 312, column `y` of trial `a`",
+            " m stands alone, 4.99",
+            " m away from the samples around",
+            "correct the cell",
+        ]],
+    ),
+    (
+        "an outlier of all columns",
+        |rows| (3..6).for_each(|axis| rows[100][axis] -= 700.0),
+        &[&["row 102, columns `x`, `y`, `z` of trial `a`"]],
+    ),
+    (
+        "three outliers",
+        |rows| [20, 21, 400].into_iter().for_each(|i| rows[i][3] = 2000.0),
+        &[&["run_a.csv, rows 22, 23, 402, column `x`", "2.0000 m and others stand alone"]],
+    ),
+    (
+        "a frozen marker",
+        |rows| hold(rows, 200..350, 3..6),
+        &[&[
+            "run_a.csv, rows 202 to 351, columns `x`, `y`, `z` of trial `a`",
+            "150 samples in a row are exactly",
+            "while the actuators move",
+            "leave these cells empty",
+        ]],
+    ),
+    (
+        "a frozen axis",
+        |rows| hold(rows, 200..350, 5..6),
+        &[&["run_a.csv, rows 202 to 351, column `z` of trial `a`: 150 samples in a row are exactly -0."]],
+    ),
+    (
+        "a lost marker written as 0",
+        |rows| [60, 61, 62, 63, 64, 420].into_iter().for_each(|i| rows[i][3..].fill(0.0)),
+        &[&[
+            "run_a.csv, rows 62 to 66, 422, columns `x`, `y`, `z` of trial `a`",
+            "exactly 0 in 6 samples, and 0.",
+            "if the marker was lost, leave these cells empty",
+        ]],
+    ),
+    (
+        "a marker lost for long and written as 0",
+        |rows| rows[100..250].iter_mut().for_each(|row| row[3..].fill(0.0)),
+        &[&["rows 102 to 251", "exactly 0 in 150 samples"]],
+    ),
+    // rows of lost markers are counted
+    (
+        "all at once, below a lost marker",
+        |rows| {
+            rows[10][5] = f64::NAN;
+            rows[50][4] += 5000.0;
+            rows[100][3..].fill(0.0);
+            hold(rows, 300..450, 3..6);
+        },
+        &[&["row 102, columns"], &["rows 302 to 451, columns"], &["row 52, column `y`"]],
+    ),
+    ("nothing", |_| (), &[]),
+    (
         "coarse quanta",
-        &spoiled(|rows| {
-            rows.iter_mut().for_each(|row| row[3..].iter_mut().for_each(|v| *v = (*v / 10.0).round() * 10.0));
-        }),
-    );
-    silent(
+        |rows| rows.iter_mut().flat_map(|row| &mut row[3..]).for_each(|v| *v = (*v / 10.0).round() * 10.0),
+        &[],
+    ),
+    (
         "steps of the actuators",
-        &spoiled(|rows| rows.iter_mut().for_each(|row| row[1] = if row[1] > 5.0 { 20.0 } else { -20.0 })),
-    );
-    silent("a step of the output", &spoiled(|rows| rows[300..].iter_mut().for_each(|row| row[3] += 200.0)));
-    silent(
-        "a robot at rest",
-        &spoiled(|rows| {
-            let rest = rows[200];
-            for row in &mut rows[200..350] {
-                row[1..].copy_from_slice(&rest[1..]);
-            }
-        }),
-    );
-    silent(
+        |rows| rows.iter_mut().for_each(|row| row[1] = if row[1] > 5.0 { 20.0 } else { -20.0 }),
+        &[],
+    ),
+    ("a step of the output", |rows| rows[300..].iter_mut().for_each(|row| row[3] += 200.0), &[]),
+    ("a robot at rest", |rows| hold(rows, 200..350, 1..6), &[]),
+    (
         "an output at rest in every second second",
-        &spoiled(|rows| {
-            for start in [100, 300, 500] {
-                let rest = rows[start];
-                rows[start..start + 60].iter_mut().for_each(|row| row[3..].copy_from_slice(&rest[3..]));
-            }
-            let rest = rows[10];
-            rows[10..70].iter_mut().for_each(|row| row[3..].copy_from_slice(&rest[3..]));
-        }),
-    );
-    silent(
+        |rows| [10, 100, 300, 500].into_iter().for_each(|start| hold(rows, start..start + 60, 3..6)),
+        &[],
+    ),
+    (
         "a marker that passes its origin",
-        &spoiled(|rows| {
-            rows.iter_mut().for_each(|row| {
-                row[4] = 0.0;
-                row[5] = 0.0;
-                row[3] = row[3].round();
-            });
-        }),
-    );
-    let excluded = spoiled(|rows| rows[310][4] += 5000.0);
-    excluded.edit("manifest.toml", "development = [\"a\"]", "development = [\"b\"]").edit(
-        "manifest.toml",
-        "held_out = [\"b\"]",
-        "excluded = [\"a\"]",
-    );
-    silent("an excluded trial", &excluded);
+        |rows| rows.iter_mut().for_each(|row| (row[3], row[4], row[5]) = (row[3].round(), 0.0, 0.0)),
+        &[],
+    ),
+];
+
+#[track_caller]
+fn warned(name: &str, set: &Set, expected: &[&[&str]]) {
+    let (code, warnings, text) = check(set);
+    assert_eq!((code, warnings.len()), (0, expected.len()), "{name}: {text}");
+    for (warning, parts) in warnings.iter().zip(expected) {
+        for part in *parts {
+            assert!(warning.contains(part), "{name}: {part:?} in\n{warning}");
+        }
+    }
 }
 
-/// Of a trial that is cut, each part has its own rows.
 #[test]
-fn a_part_of_a_trial_has_the_rows_of_the_file() {
-    let set = spoiled(|rows| rows[310][4] += 5000.0);
-    set.edit("manifest.toml", "development = [\"a\"]\n", "").edit(
-        "manifest.toml",
-        "[roles]",
-        "[cut.a]\nhead = { until = 2.0, role = \"excluded\" }\ntail = { role = \"development\" }\n[roles]",
-    );
-    warned(&set, &["run_a.csv, row 312, column `y` of trial `a:tail`"]);
+fn what_looks_spoiled_has_a_warning_and_what_is_only_unusual_has_none() {
+    for (name, spoil, expected) in CASES {
+        warned(name, &spoiled(spoil), expected);
+    }
+}
+
+/// Each part of a trial that is cut has the rows of the file; what is excluded has no warning.
+#[test]
+fn roles_decide_which_samples_are_checked() {
+    let (outlier, development) =
+        (|rows: &mut Vec<Row>| rows[310][4] += 5000.0, "development = [\"a\"]\nheld_out = [\"b\"]");
+    let set = spoiled(outlier);
+    set.edit("manifest.toml", development, "development = [\"b\"]\nexcluded = [\"a\"]");
+    warned("an excluded trial", &set, &[]);
+    let set = spoiled(outlier);
+    let cut =
+        "held_out = [\"b\"]\n[cut.a]\nhead = { until = 2.0, role = \"excluded\" }\ntail = { role = \"development\" }";
+    set.edit("manifest.toml", development, cut);
+    warned("a cut", &set, &[&["run_a.csv, row 312, column `y` of trial `a:tail`"]]);
 }
 
 /// No byte of a set from somebody else moves the cursor: names of files and of trials are shown as they are not printed.
 #[cfg(unix)]
 #[test]
 fn no_control_character_reaches_the_terminal() {
-    let clean = |text: &str| assert!(!text.contains(|c: char| c.is_control() && c != '\n'), "{text:?}");
+    let shown = |set: &Set, code: i32, words: &str| {
+        let (found, _, text) = check(set);
+        assert!(found == code && text.contains(words), "{found}: {text}");
+        assert!(!text.contains(|c: char| c.is_control() && c != '\n'), "{text:?}");
+    };
     let set = spoiled(|_| ());
     std::fs::copy(set.file("run_b.csv"), set.file("run_c\u{1b}[31m.csv")).expect("copied");
-    let (code, _, text) = check(&set);
-    assert_eq!(code, 3, "{text}");
-    assert!(
-        text.contains("the name of the file `run_c\\u{1b}[31m.csv` has control characters; rename the file"),
-        "{text}"
-    );
-    clean(&text);
+    shown(&set, 3, "the name of the file `run_c\\u{1b}[31m.csv` has control characters; rename the file");
     std::fs::rename(set.file("run_c\u{1b}[31m.csv"), set.file("other\u{1b}[31m.csv")).expect("renamed");
-    let (code, _, text) = check(&set);
-    assert_eq!(code, 0, "{text}");
-    assert!(text.contains("no pattern matches other\\u{1b}[31m.csv"), "{text}");
-    clean(&text);
+    shown(&set, 0, "no pattern matches other\\u{1b}[31m.csv");
     let named = spoiled(|_| ());
-    named.edit("manifest.toml", "{ file = \"run_(.*)\" }", "{ column = \"run\" }").edit(
-        "manifest.toml",
-        "run_*",
-        "run_a*",
-    );
-    let text = csv(&rows(0))
-        .lines()
-        .enumerate()
-        .map(|(i, line)| format!("{line},{}\n", if i == 0 { "run" } else { "a\u{1b}]0;x\u{7}" }))
-        .collect::<String>();
+    named.edit("manifest.toml", "{ file = \"run_(.*)\" }", "{ column = \"run\" }");
+    named.edit("manifest.toml", "run_*", "run_a*");
+    let text = csv(&rows(0)).replace('\n', ",a\u{1b}]0;x\u{7}\n").replacen("a\u{1b}]0;x\u{7}", "run", 1);
     named.write("run_a.csv", &text);
-    let (code, _, text) = check(&named);
-    assert_eq!(code, 3, "{text}");
-    assert!(
-        text.contains(
-            "run_a.csv, row 2: the trial's name `a\\u{1b}]0;x\\u{7}` in column `run` has control characters; give it"
-        ),
-        "{text}"
-    );
-    clean(&text);
+    let place =
+        "run_a.csv, row 2: the trial's name `a\\u{1b}]0;x\\u{7}` in column `run` has control characters; give it";
+    shown(&named, 3, place);
     let header = spoiled(|_| ());
     header.edit("run_a.csv", "t,q1,q2,x,y,z", "t,q1,q2,x,y,z\u{1b}[2J");
-    clean(&check(&header).2);
+    shown(&header, 3, "column `z` is missing");
 }

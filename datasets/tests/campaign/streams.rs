@@ -79,7 +79,7 @@ fn a_bad_cell_is_found_in_its_row_however_far_down() {
 }
 
 #[test]
-fn a_file_that_is_exchanged_while_it_is_read_is_told() {
+fn a_file_that_is_exchanged_while_it_is_read_is_named() {
     let set = set("calibration = []\ndevelopment = [\"a\", \"b\"]\nheld_out = []");
     let name = |row: usize| if row < GROUP { "a" } else { "b" };
     table(&set, 2, |row| name(row).into(), value);

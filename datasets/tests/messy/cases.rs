@@ -50,19 +50,14 @@ fn gzip(text: &[u8]) -> Vec<u8> {
     encoder.write_all(text).and_then(|()| encoder.finish()).unwrap_or_default()
 }
 
-/// A degree sign of Latin-1 in the third row.
-fn latin() -> Vec<u8> {
-    with("0.25", "0.25\x01").bytes().map(|byte| if byte == 1 { 0xb0 } else { byte }).collect()
-}
-
 fn with(from: &str, to: &str) -> String {
     assert!(PLAIN.contains(from), "{from:?}");
     PLAIN.replacen(from, to, 1)
 }
 
 /// Another separator, and another sign before the fraction.
-fn other(separator: char, decimal: char) -> String {
-    PLAIN.replace(',', "\u{1}").replace('.', &decimal.to_string()).replace('\u{1}', &separator.to_string())
+fn other(text: &str, separator: char, decimal: char) -> String {
+    text.replace(',', "\u{1}").replace('.', &decimal.to_string()).replace('\u{1}', &separator.to_string())
 }
 
 pub fn all() -> Vec<Case> {
@@ -80,50 +75,36 @@ fn encodings() -> Vec<Case> {
         right("empty lines at the end", format!("{PLAIN}\n\r\n\n")),
         right("UTF-16, little", wide(PLAIN, [0xff, 0xfe], u16::to_le_bytes)),
         right("UTF-16, big", wide(PLAIN, [0xfe, 0xff], u16::to_be_bytes)),
-        refused(
-            "UTF-16 without a mark",
-            wide(PLAIN, [0xff, 0xfe], u16::to_le_bytes)[2..].to_vec(),
-            &["zero byte", "row 1"],
-        ),
-        refused("Latin-1 in a cell", latin(), &["row 3", "UTF-8"]),
         right("gzip", packed.clone()),
         refused("gzip that is cut off", packed[..packed.len() - 9].to_vec(), &["gzip", "cannot be decompressed"]),
         right("gzip of UTF-16", gzip(&wide(PLAIN, [0xff, 0xfe], u16::to_le_bytes))),
-        refused("zstd", b"\x28\xb5\x2f\xfd\x04\x00".to_vec(), &["zstd", "decompress"]),
-        refused("a spreadsheet", b"PK\x03\x04\x14\x00\x06\x00".to_vec(), &["spreadsheet", "save the table as CSV"]),
-        refused("a web page", "<!DOCTYPE html>\n<html></html>\n", &["web page", "download"]),
-        refused(
-            "a pointer of Git LFS",
-            "version https://git-lfs.github.com/spec/v1\noid sha256:00\n",
-            &["Git LFS", "git lfs pull"],
-        ),
         refused("a zero byte", with("0.25", "0.2\0"), &["row 3", "zero byte"]),
         refused("an empty file", "", &["empty"]),
-        refused("a header alone", "t,q,y\n", &["no"]),
-        refused("blank lines alone", "\n\n\n", &["empty"]),
     ]
 }
 
 fn separators() -> Vec<Case> {
-    let told = |case: Case, keys: &'static str| Case { keys, ..case };
+    let with_keys = |case: Case, keys: &'static str| Case { keys, ..case };
     let thousands = "t,q,y\n0,0.5,\"10\"\n0.1,0.25,\"20\"\n0.2,1.5,\"30.000\"\n0.3,-2,40\n";
     vec![
-        right("semicolons", other(';', '.')),
-        right("tabs", other('\t', '.')),
-        right("bars", other('|', '.')),
-        right("blanks", other(' ', '.')),
+        right("semicolons", other(PLAIN, ';', '.')),
+        right("tabs", other(PLAIN, '\t', '.')),
+        right("bars", other(PLAIN, '|', '.')),
+        right("blanks", other(PLAIN, ' ', '.')),
         right("several blanks", PLAIN.replace(',', "   ")),
-        right("blanks and a comment sign before the header", format!("# {}", other(' ', '.'))),
-        right("semicolons and decimal commas", other(';', ',')),
-        right("tabs and decimal commas", other('\t', ',')),
-        told(right("semicolons that are told", other(';', '.')), "separator = \";\"\n"),
-        told(right("decimal commas that the manifest gives", other(';', ',')), "separator = \";\"\ndecimal = \",\"\n"),
+        right("blanks and a comment sign before the header", format!("# {}", other(PLAIN, ' ', '.'))),
+        right("semicolons and decimal commas", other(PLAIN, ';', ',')),
+        right("tabs and decimal commas", other(PLAIN, '\t', ',')),
+        with_keys(right("semicolons that the manifest gives", other(PLAIN, ';', '.')), "separator = \";\"\n"),
+        with_keys(
+            right("decimal commas that the manifest gives", other(PLAIN, ';', ',')),
+            "separator = \";\"\ndecimal = \",\"\n",
+        ),
         refused(
             "decimal commas in a table with commas",
             "t,q,y\n0,0,5,10\n0.1,0,25,20\n",
             &["row 2", "3 columns", "4 cells"],
         ),
-        refused("decimal commas in quotes", with("0.25", "\"0,25\""), &["row 3", "column `q`", "0,25"]),
         refused("three digits behind a comma", "t;q;y\n0;1,234;10\n1;2,500;20\n", &["row 2", "1,234", "decimal = "]),
         refused(
             "three digits behind a point, beside whole numbers",
@@ -131,7 +112,7 @@ fn separators() -> Vec<Case> {
             &["row 2", "12.345", "decimal = "],
         ),
         right("three digits behind a point between commas", thousands),
-        told(
+        with_keys(
             right(
                 "thousands in groups that the manifest gives",
                 "t,q,y\n0,0.5,10\n0.1,0.25,20\n0.2,1.5,30\n0.3,-2,\"0,040\"\n",
@@ -148,11 +129,13 @@ fn separators() -> Vec<Case> {
             "t;q;y\n0;1.234;10\n1;0,5;20\n",
             &["row 2", "1.234", "decimal"],
         ),
-        refused("thousands with commas in quotes", with("-2", "\"1,234.5\""), &["row 5", "column `q`", "1,234.5"]),
         refused("a header with semicolons above commas", PLAIN.replacen("t,q,y", "t;q;y", 1), &["row 2"]),
         refused("two separators that both fit", "t,a;q,y\n0,1;2,3\n1,1;2,3\n", &["row 1", "separator = "]),
-        right("a first row that names the separator", format!("sep=;\n{}", other(';', '.'))),
-        right("a first row in capitals and quotes that names it", format!("\u{feff}\"SEP=;\"\n{}", other(';', ','))),
+        right("a first row that names the separator", format!("sep=;\n{}", other(PLAIN, ';', '.'))),
+        right(
+            "a first row in capitals and quotes that names it",
+            format!("\u{feff}\"SEP=;\"\n{}", other(PLAIN, ';', ',')),
+        ),
     ]
 }
 
@@ -171,6 +154,10 @@ fn headers() -> Vec<Case> {
         ),
         right("a separator behind every row", PLAIN.replace('\n', ",\n")),
         right("a separator behind every row but the header", PLAIN.replace('\n', ",\n").replacen("y,", "y", 1)),
+        right(
+            "all that a spreadsheet writes",
+            "\u{feff}\"t\",q, y ,note,note\r\n\"0\", 0.5 ,10,\"a, b\",x\r\n0.1,0.25,20,,\r\n0.2,1.5,30,,\r\n0.3,-2,40,\"a\",x",
+        ),
         right("a row of units", with("t,q,y\n", "t,q,y\n[s],[rad],[mm]\n")),
         right("a row of units without brackets", with("t,q,y\n", "t,q,y\ns,rad,mm\n")),
         refused(
@@ -181,46 +168,26 @@ fn headers() -> Vec<Case> {
         refused("a row with another unit of time", with("t,q,y\n", "t,q,y\nms,rad,mm\n"), &["column `t`", "\"ms\""]),
         refused("two rows of units", with("t,q,y\n", "t,q,y\ns,rad,mm\ns,rad,mm\n"), &["row"]),
         refused("units in the header", with("t,q,y", "t [s],q [rad],y [mm]"), &["column `q` is missing", "q [rad]"]),
-        refused("capitals in the header", with("t,q,y", "t,Q,y"), &["column `q` is missing", "did you mean `Q`"]),
-        refused("a blank that cannot be seen", with("t,q,y", "t,q\u{200b},y"), &["column `q` is missing", "200b"]),
         refused("a missing column", with("t,q,y", "t,p,y"), &["column `q` is missing", "`p`"]),
-        refused("a column that is there twice", "t,q,y,q\n0,0.5,10,1\n0.1,0.25,20,1\n", &["`q`"]),
         right("a comment above the header", format!("# recorded on Monday\n{PLAIN}")),
         right("keys and values above the header", format!("Operator,Ann\nRig,2\n\n{PLAIN}")),
         right(
             "doubled quotes in a header",
             "t,q,y,\"a \"\"b\"\"\"\n0,0.5,10,1\n0.1,0.25,20,1\n0.2,1.5,30,1\n0.3,-2,40,1\n",
         ),
-        refused("no header", PLAIN.replacen("t,q,y\n", "", 1), &["missing"]),
         refused("the header again in the middle", with("0.2,", "t,q,y\n0.2,"), &["row 4"]),
     ]
 }
 
 fn cells() -> Vec<Case> {
-    let bad = |name, cell: &str| refused(name, with("0.25", cell), &["row 3", "column `q`"]);
     vec![
         right("blanks around numbers", PLAIN.replace(',', " , ")),
         right("numbers in quotes", with("0.25", "\"0.25\"")),
         right("exponents and signs", with("0.25", "+2.5E-1").replace("1.5", "15e-1").replace("10\n", "1.0e+1\n")),
         right("no digit before the point", with("0.25", ".25").replace("-2,", "-2.,")),
-        bad("text", "abc"),
-        bad("a letter O", "O.25"),
-        bad("a unit behind a number", "0.25 rad"),
-        bad("a percent sign", "25%"),
-        bad("a hexadecimal number", "0x1F"),
-        bad("two points", "0.2.5"),
-        bad("an exponent of Fortran", "2.5D-1"),
-        bad("a minus of typographers", "\u{2212}0.25"),
-        bad("digits of another script", "\u{ff10}.25"),
-        bad("an error of a spreadsheet", "#DIV/0!"),
-        bad("a question mark", "?"),
-        bad("an underscore", "1_000"),
-        bad("an apostrophe", "1'000"),
-        bad("a blank within a number", "1 000"),
-        bad("a number beyond all", "1e400"),
-        bad("a number that nobody measures", "1e31"),
-        bad("infinity", "inf"),
-        bad("a truth value", "TRUE"),
+        right("negative zero", with("0,0.5", "-0.0,0.5")),
+        right("denormal numbers", with("0,0.5", "5e-324,0.5")),
+        refused("text", with("0.25", "abc"), &["row 3", "column `q`"]),
     ]
 }
 
@@ -237,7 +204,6 @@ fn missing() -> Vec<Case> {
         output("#N/A", "#N/A"),
         output("NULL", "NULL"),
         output("a dash", "-"),
-        refused("an empty time", with("0.1,", ","), &["row 3", "column `t`"]),
     ]
 }
 
@@ -245,7 +211,8 @@ fn times() -> Vec<Case> {
     let dated = |times: [&str; 4]| {
         format!("t,q,y\n{},0.5,10\n{},0.25,20\n{},1.5,30\n{},-2,40\n", times[0], times[1], times[2], times[3])
     };
-    let number: &[&str] = &["row 2", "column `t`"];
+    let stepped =
+        |form: &str| dated([0, 1, 2, 3].map(|k| form.replace('#', &k.to_string())).each_ref().map(String::as_str));
     let other_form: &[&str] = &["row 2", "column `t`", "a date of another form", "2026-11-03T10:00:00"];
     vec![
         right(
@@ -257,14 +224,8 @@ fn times() -> Vec<Case> {
                 "2026-11-03T04:00:00.3-05",
             ]),
         ),
-        right(
-            "dates with a blank",
-            dated(["2026-11-03 10:00:00.0", "2026-11-03 10:00:00.1", "2026-11-03 10:00:00.2", "2026-11-03 10:00:00.3"]),
-        ),
-        right(
-            "dates with a comma before the fraction",
-            "t;q;y\n2026-11-03 10:00:00,0;0,5;10\n2026-11-03 10:00:00,1;0,25;20\n2026-11-03 10:00:00,2;1,5;30\n2026-11-03 10:00:00,3;-2;40\n",
-        ),
+        right("dates with a blank", stepped("2026-11-03 10:00:00.#")),
+        right("dates with a comma before the fraction", other(&stepped("2026-11-03 10:00:00.#"), ';', ',')),
         right("times of day over midnight", dated(["23:59:59.9", "00:00:00.0", "00:00:00.1", "00:00:00.2"])),
         refused(
             "an hour that comes twice",
@@ -273,30 +234,17 @@ fn times() -> Vec<Case> {
         ),
         refused(
             "a zone here and none there",
-            dated([
-                "2026-11-03T10:00:00Z",
-                "2026-11-03T10:00:00.1",
-                "2026-11-03T10:00:00.2Z",
-                "2026-11-03T10:00:00.3Z",
-            ]),
+            stepped("2026-11-03T10:00:00.#Z").replacen(".1Z", ".1", 1),
             &["row 3", "zone"],
         ),
         refused(
             "a month that is none",
-            dated(["2026-11-03T10:00:00Z", "2026-13-03T10:00:00Z", "2026-11-03T10:00:02Z", "2026-11-03T10:00:03Z"]),
+            stepped("2026-11-03T10:00:0#Z").replacen("11-03T10:00:01", "13-03T10:00:01", 1),
             &["row 3", "2026-13-03"],
         ),
-        refused(
-            "day and month that nobody can tell apart",
-            dated(["03/11/2026 10:00:00", "03/11/2026 10:00:01", "03/11/2026 10:00:02", "03/11/2026 10:00:03"]),
-            other_form,
-        ),
-        refused(
-            "a German date",
-            dated(["3.11.2026 10:00:00", "3.11.2026 10:00:01", "3.11.2026 10:00:02", "3.11.2026 10:00:03"]),
-            other_form,
-        ),
-        refused("twelve hours", dated(["10:00:00 AM", "10:00:01 AM", "10:00:02 AM", "10:00:03 AM"]), number),
+        refused("day and month that nobody can tell apart", stepped("03/11/2026 10:00:0#"), other_form),
+        refused("a German date", stepped("3.11.2026 10:00:0#"), other_form),
+        refused("twelve hours", stepped("10:00:0# AM"), &["row 2", "column `t`"]),
         refused(
             "numbers that become dates",
             dated(["0", "0.1", "2026-11-03T10:00:02Z", "2026-11-03T10:00:03Z"]),
@@ -307,7 +255,6 @@ fn times() -> Vec<Case> {
             dated(["2026-11-03T10:00:00Z", "2026-11-03T10:00:01Z", "2", "3"]),
             &["row 4"],
         ),
-        refused("time that stands still", with("0.2,", "0.1,"), &["row 4", "time stands still"]),
         refused("time that goes back", with("0.2,", "0.05,"), &["row 4", "sort the file"]),
         refused(
             "a counter that starts again",
@@ -320,25 +267,11 @@ fn times() -> Vec<Case> {
 fn rows() -> Vec<Case> {
     vec![
         refused("a row that is too short", with("0.25,20", "0.25"), &["row 3", "2 cells"]),
-        refused("a row that is too long", with("0.25,20", "0.25,20,1"), &["row 3", "4 cells"]),
-        refused(
-            "a last row that is cut off",
-            PLAIN.trim_end_matches("40\n").trim_end_matches(',').to_string(),
-            &["row 5"],
-        ),
-        refused("an empty line in the middle", with("0.2,", "\n0.2,"), &["row 4"]),
         refused("a row of means at the end", format!("{PLAIN}mean,0.06,25\n"), &["row 6", "mean"]),
-        refused("a quote that is never closed", with("0.25", "\"0.25"), &["row 3", "quot"]),
         right("a line end within quotes", "t,note,q,y\n0,\"a\nb\",0.5,10\n0.1,,0.25,20\n0.2,c,1.5,30\n0.3,d,-2,40\n"),
         right(
             "quotes within quotes",
             "t,note,q,y\n0,\"a \"\"b\"\" c\",0.5,10\n0.1,,0.25,20\n0.2,c,1.5,30\n0.3,d,-2,40\n",
         ),
-        refused(
-            "a number behind a line end within quotes",
-            "t,note,q,y\n0,\"a\nb\",0.5,10\n0.1,,oops,20\n",
-            &["row 3", "column `q`", "oops"],
-        ),
-        refused("rows that stand twice", with("0.2,", "0.1,0.25,20\n0.2,"), &["row 4"]),
     ]
 }

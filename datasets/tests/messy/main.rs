@@ -28,8 +28,8 @@ fn manifest(source: bool, keys: &str) -> String {
     )
 }
 
-/// Time from its first sample, q, y in mm; and what was noted.
-type Read = Result<(Vec<f64>, Vec<f64>, Vec<f64>), String>;
+/// Time from its first sample, q, y in mm; and the warnings.
+type Read = Result<(Vec<f64>, Vec<f64>, Vec<f64>, Vec<String>), String>;
 
 fn read(source: bool, case: &Case) -> Read {
     let folder = tempfile::tempdir().expect("a folder");
@@ -40,7 +40,7 @@ fn read(source: bool, case: &Case) -> Read {
     let first = trial.time.first().copied().unwrap_or_default();
     let time = trial.time.iter().map(|t| t - first).collect();
     let column = |matrix: &nalgebra::DMatrix<f64>, factor: f64| matrix.iter().map(|v| v * factor).collect();
-    Ok((time, column(&trial.actuators, 1.0), column(&trial.measured, 1000.0)))
+    Ok((time, column(&trial.actuators, 1.0), column(&trial.measured, 1000.0), data.warnings.clone()))
 }
 
 /// What does not hold of a table.
@@ -48,12 +48,12 @@ fn wrong(source: bool, case: &Case) -> Option<String> {
     let Ok(found) = catch_unwind(AssertUnwindSafe(|| read(source, case))) else { return Some("it panicked".into()) };
     let near = |a: &[f64], b: &[f64]| a.len() == b.len() && a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-9);
     match (&case.wanted, found) {
-        (Wanted::Right(rows), Ok((t, q, y))) => {
+        (Wanted::Right(rows), Ok((t, q, y, warnings))) => {
             let of = |all: [f64; 4]| rows.iter().map(|k| all[*k]).collect::<Vec<f64>>();
             let start = of(T).first().copied().unwrap_or_default();
             let time: Vec<f64> = of(T).iter().map(|t| t - start).collect();
-            let right = near(&t, &time) && near(&q, &of(Q)) && near(&y, &of(Y));
-            (!right).then(|| format!("SILENTLY WRONG: {t:?} {q:?} {y:?}"))
+            let right = near(&t, &time) && near(&q, &of(Q)) && near(&y, &of(Y)) && warnings.is_empty();
+            (!right).then(|| format!("SILENTLY WRONG: {t:?} {q:?} {y:?} {warnings:?}"))
         }
         (Wanted::Right(_), Err(message)) => Some(format!("refused: {message}")),
         (Wanted::Refused(_), Ok(read)) => Some(format!("ACCEPTED: {read:?}")),
