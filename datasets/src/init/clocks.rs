@@ -3,61 +3,51 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use super::column::Column;
 use super::found::Found;
 use super::names::quoted;
-use super::time;
+use super::signals::{Part, Signal};
 use crate::join::clock::estimate::Named;
-use crate::join::{Request, Series, estimate, signals};
+use crate::join::{self, Request, Series, estimate};
 use crate::manifest::{Source, Time};
 
-/// Columns of a source that are compared with each output of the reference.
+/// Columns of a source that are compared with each output.
 const COMPARED: usize = 20;
 
-/// Parts of names of columns that tell of a motion.
-const MOTION: &[&str] =
-    &["position", "pose", "odom", "attitude", "angle", "joint", "encoder", "motor", ".x", ".y", ".z", "q[", "q1", "q2"];
-
-/// Two columns of one motion.
-pub(super) struct Located {
-    /// Columns of the reference and of the source, with the sources' names before them.
-    pub by: [String; 2],
-    /// Their correlation, and the offset in the first trial.
-    pub found: String,
-}
-
-/// The columns by which the clock of a source can be estimated; `None` if nothing moves together.
-pub(super) fn located(folder: &Path, reference: &Found, outputs: &[String], source: &Found) -> Option<Located> {
+/// The columns by which the clock of a source can be estimated, and what is found in the first trial; `None` if nothing moves
+/// together. Columns that are named as measurements are compared first.
+pub(super) fn located(
+    folder: &Path,
+    reference: &Found,
+    source: &Found,
+    signals: &[Signal],
+) -> Option<([String; 2], String)> {
     let first = reference.files.iter().find(|file| source.file(reference.trial(file)).is_some())?;
     let trial = reference.trial(first);
-    let of_reference = series(&folder.join(&first.path), reference, outputs.iter().cloned())?;
-    let of_source = series(&folder.join(&source.file(trial)?.path), source, candidates(source).into_iter())?;
-    let r: Vec<Named> = of_reference.iter().map(|(name, series)| (name.as_str(), series)).collect();
-    let s: Vec<Named> = of_source.iter().map(|(name, series)| (name.as_str(), series)).collect();
-    let found = estimate(&r, &s, &Request { drift: Some(0.0), ..Request::default() }).ok()?;
-    Some(Located {
-        by: [format!("{}.{}", reference.name, found.reference), format!("{}.{}", source.name, found.source)],
-        found: format!("correlation {:.2} in trial {}, t {:+.3} s", found.correlation, quoted(trial), found.offset),
-    })
+    let outputs: Vec<&Signal> = signals.iter().filter(|signal| signal.part == Part::Measured).collect();
+    let is_own = |signal: &&Signal| std::ptr::eq(signal.source, source) && signal.flaw.is_none();
+    let mut columns: Vec<&Signal> = signals.iter().filter(is_own).collect();
+    columns.sort_by_key(|signal| signal.named() != Part::Measured);
+    columns.truncate(COMPARED);
+    let outputs = series(&folder.join(&first.path), reference, &outputs)?;
+    let columns = series(&folder.join(&source.file(trial)?.path), source, &columns)?;
+    let request = Request { drift: Some(0.0), ..Request::default() };
+    let found = estimate(&named(&outputs), &named(&columns), &request).ok()?;
+    Some((
+        [format!("{}.{}", reference.name, found.reference), format!("{}.{}", source.name, found.source)],
+        format!("correlation {:.2} in trial {}, t {:+.3} s", found.correlation, quoted(trial), found.offset),
+    ))
 }
 
-/// Columns that tell of a motion, or the first.
-fn candidates(source: &Found) -> Vec<String> {
-    let time = time::of(source, None).map(|time| time.column);
-    let columns = source.columns();
-    let usable = |column: &&Column| column.flaw().is_none() && Some(column.name) != time.as_deref();
-    let names = || columns.iter().filter(usable).map(|column| column.name).filter(|name| !name.contains("timestamp"));
-    let moves = |name: &&str| MOTION.iter().any(|part| name.to_lowercase().contains(part));
-    let moving: Vec<String> = names().filter(moves).take(COMPARED).map(str::to_string).collect();
-    if moving.is_empty() { names().take(COMPARED).map(str::to_string).collect() } else { moving }
+fn named(all: &[(String, Series)]) -> Vec<Named<'_>> {
+    all.iter().map(|(name, series)| (name.as_str(), series)).collect()
 }
 
-fn series(path: &Path, of: &Found, columns: impl Iterator<Item = String>) -> Option<Vec<(String, Series)>> {
-    let time = time::of(of, None).filter(|_| of.format.is_table());
-    let column = time.map(|time| Time { column: Some(time.column), unit: time.unit, rate_hz: None });
-    let time = column.unwrap_or_default();
+/// Some columns of a file, as the manifest would read them.
+fn series(path: &Path, of: &Found, signals: &[&Signal]) -> Option<Vec<(String, Series)>> {
+    let (column, unit) = of.time.as_ref().map(|time| (time.column.clone(), time.unit.clone())).unzip();
+    let time = Time { column, unit: unit.flatten(), rate_hz: None };
     let source = Source { name: of.name.clone(), format: Some(of.format), time, ..Source::default() };
-    let columns: BTreeSet<String> = columns.collect();
-    let read = signals::read(path, &source, &columns).ok()?;
+    let columns: BTreeSet<String> = signals.iter().map(|signal| signal.of.name.to_string()).collect();
+    let read = join::signals::read(path, &source, &columns).ok()?;
     Some(columns.into_iter().filter_map(|name| Some((name.clone(), read.series(&name)?))).collect())
 }

@@ -23,7 +23,12 @@ impl Column<'_> {
         self.looks.iter().map(|look| look.empty).sum()
     }
 
-    pub fn counts_rows(&self) -> bool {
+    /// Whether it has even steps, and is no number of rows.
+    pub fn is_paced(&self) -> bool {
+        self.looks.iter().all(|look| look.pace().is_some()) && !self.counts_rows()
+    }
+
+    fn counts_rows(&self) -> bool {
         self.looks.iter().all(|look| look.whole && look.rises(&[], false) && look.pace() == Some(1.0))
     }
 

@@ -3,172 +3,186 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use super::clocks::{self, Located};
-use super::found::Found;
+use super::clocks;
+use super::found::{Found, Time};
 use super::names::{self, list, quoted};
 use super::signals::{self, Part, Signal};
 use super::sources::Folder;
-use super::time::{self, Time};
 use crate::text::natural;
 
 /// Columns that are proposed as a [[context]]; of more, the names.
 const LISTED: usize = 24;
 
-/// The draft of a folder with recordings, whose trials a column may name.
-pub(super) fn text(folder: &Path, found: &Folder, trial: Option<(String, Vec<String>)>) -> String {
-    let (reference, by) = (&found.sources[0], trial.as_ref().map(|(column, _)| column.as_str()));
-    let times: Vec<Option<Time>> = found.sources.iter().map(|source| time::of(source, by)).collect();
-    let signals = signals::signals(&found.sources, &times, by);
-    let outputs =
-        signals.iter().filter(|signal| signal.part == Part::Measured).map(|signal| signal.of.name.to_string());
-    let outputs: Vec<String> = outputs.collect();
-    let mut text = String::from("# A first draft: answer the questions, then run acm-data check.\n");
+/// The draft of a folder with recordings.
+pub(super) fn text(folder: &Path, found: &Folder) -> String {
+    let signals = signals::signals(&found.sources);
+    let mut draft = Draft { text: String::new(), is_table: is_table(&found.sources), comment: "" };
+    draft.add("# A first draft: answer the questions, then run acm-data check.");
     for (file, reason) in &found.left {
-        let _ = writeln!(text, "# {} is left out: {reason}", quoted(file));
+        draft.add(&format!("# {} is left out: {reason}", quoted(file)));
     }
-    text.push_str("provenance = \"\"   # where are the data from?\n");
-    let is_table = is_table(&found.sources);
-    for (k, (source, time)) in found.sources.iter().zip(&times).enumerate() {
-        text.push_str(&files(source, found, is_table, by));
+    draft.line("provenance", "\"\"", "where are the data from?");
+    for source in &found.sources {
+        draft.files(folder, source, &found.left);
         if source.format.is_table() {
-            text.push_str(&time_line(time.as_ref()));
+            draft.time(source.time.as_ref());
         }
-        text.push_str(&periods(signals.iter().filter(|signal| std::ptr::eq(signal.source, source)).collect()));
-        if !is_table {
-            text.push_str(&clock_line((k > 0).then(|| clocks::located(folder, reference, &outputs, source))));
+        let is_periodic = |s: &&Signal| std::ptr::eq(s.source, source) && s.part != Part::Unknown && s.period.is_some();
+        draft.periods(&signals.iter().filter(is_periodic).collect::<Vec<_>>());
+        if !draft.is_table {
+            draft.clock(folder, &found.sources[0], source, &signals);
         }
     }
-    write_signals(&mut text, &signals, is_table);
-    let of_files = || reference.trials().into_iter().map(str::to_string).collect();
-    text + &roles(trial.map_or_else(of_files, |(_, trials)| trials))
+    draft.add("");
+    draft.signals(&signals);
+    draft.roles(found.sources[0].trials().into_iter().collect());
+    draft.text
 }
 
 /// Whether a [table] describes all.
 fn is_table(sources: &[Found]) -> bool {
-    let is_known = |path: &str| [".csv", ".parquet"].iter().any(|end| path.to_lowercase().ends_with(end));
-    sources.len() == 1 && sources[0].format.is_table() && sources[0].files.iter().all(|file| is_known(&file.path))
+    sources.len() == 1 && sources[0].format.is_table() && sources[0].files.iter().all(|file| has_table_name(&file.path))
 }
 
-/// Which files, and where their trials are named.
-fn files(source: &Found, found: &Folder, is_table: bool, by: Option<&str>) -> String {
-    let list = |patterns: Vec<String>| list(patterns.iter().map(String::as_str));
-    let paths: Vec<&str> = source.files.iter().map(|file| file.path.as_str()).collect();
-    let patterns = list(names::patterns(&paths, &source.ends, &found.paths));
-    let table = |path: &&str| !path.contains('/') && (path.ends_with(".csv") || path.ends_with(".parquet"));
-    let ignored: Vec<&str> = found.left.iter().map(|(path, _)| path.as_str()).filter(table).collect();
-    let ignored = list(names::patterns(&ignored, &Default::default(), &found.paths));
-    let (before, after) = &source.ends;
-    let mut text = match is_table {
-        true if ignored == "[]" => format!("\n[table]\nfiles  = {patterns}\n"),
-        true => format!("\n[table]\nfiles  = {patterns}\nignore = {ignored}\n"),
-        false => {
-            let (name, format) = (quoted(&source.name), quoted(source.format.name()));
-            format!("\n[[source]]\nname   = {name}\nfiles  = {patterns}\nformat = {format}\n")
+fn has_table_name(path: &str) -> bool {
+    [".csv", ".parquet"].iter().any(|end| path.to_lowercase().ends_with(end))
+}
+
+/// A text that grows.
+struct Draft {
+    text: String,
+    is_table: bool,
+    /// Before each key of what is only proposed.
+    comment: &'static str,
+}
+
+impl Draft {
+    fn add(&mut self, line: &str) {
+        let _ = writeln!(self.text, "{line}");
+    }
+
+    /// A key, its value, and what is asked about it; an empty list needs no line.
+    fn line(&mut self, key: &str, value: &str, question: &str) {
+        if value == "[]" {
+            return;
         }
-    };
-    if let Some(column) = by {
-        let _ = writeln!(text, "trial  = {{ column = {} }}   # does it name the trials?", quoted(column));
-    } else if source.shared {
-        text.push_str("shared = true   # does this one file hold all trials?\n");
-    } else if !(before.is_empty() && after.is_empty()) {
-        let pattern = format!("{}(.*){}", regex::escape(before), regex::escape(after));
-        let _ = writeln!(text, "trial  = {{ file = {} }}", quoted(&pattern));
+        let question = if question.is_empty() { String::new() } else { format!("   # {question}") };
+        self.add(&format!("{}{key:<6} = {value}{question}", self.comment));
     }
-    text
-}
 
-fn time_line(time: Option<&Time>) -> String {
-    let Some(Time { column, unit, guessed }) = time else {
-        return "time   = { rate_hz = 100.0 }   # no column looks like time: what is the rate?\n".into();
-    };
-    let unit = unit.as_ref().map_or(String::new(), |unit| format!(", unit = {}", quoted(unit)));
-    let question = if *guessed { "   # is this its unit?" } else { "" };
-    format!("time   = {{ column = {}{unit} }}{question}\n", quoted(column))
-}
-
-/// Proposed signals that start again at their other end.
-fn periods(mut signals: Vec<&Signal>) -> String {
-    signals.retain(|signal| signal.part != Part::Unknown && signal.period.is_some());
-    let (angles, counters): (Vec<&Signal>, Vec<&Signal>) = signals.into_iter().partition(|signal| signal.is_angle());
-    let mut text = String::new();
-    if !angles.is_empty() {
-        let _ = writeln!(text, "angles = {}   # each jumps by a full turn", list(angles.iter().map(|s| s.of.name)));
-    }
-    if !counters.is_empty() {
-        let of = |s: &&Signal| format!("{} = {}", quoted(s.of.name), s.period.unwrap_or_default());
-        let counters = counters.iter().map(of).collect::<Vec<_>>().join(", ");
-        let _ = writeln!(text, "counters = {{ {counters} }}   # each starts again after so many");
-    }
-    text
-}
-
-/// The clock of the reference, or that of another source and what is known of it.
-fn clock_line(located: Option<Option<Located>>) -> String {
-    let same = "or clock = \"same\", where one computer stamped both";
-    match located {
-        None => "clock  = \"reference\"   # its samples are those of the trials\n".into(),
-        Some(None) => format!("offset = \"estimate\"   # {same}\n"),
-        Some(Some(Located { by, found })) => {
-            let by = list(by.iter().map(String::as_str));
-            format!("offset = {{ estimate = \"estimate\", by = {by} }}   # {found}; {same}\n")
+    /// Which files, and where their trials are named.
+    fn files(&mut self, folder: &Path, source: &Found, left: &[(String, String)]) {
+        let paths: Vec<&str> = source.files.iter().map(|file| file.path.as_str()).collect();
+        if self.is_table {
+            self.add("\n[table]");
+        } else {
+            self.add("\n[[source]]");
+            self.line("name", &quoted(&source.name), "");
+        }
+        self.line("files", &list(names::patterns(folder, &paths, &source.ends)), "");
+        if self.is_table {
+            let ignored = left.iter().map(|(path, _)| path).filter(|path| !path.contains('/') && has_table_name(path));
+            self.line("ignore", &list(ignored.map(|path| names::escaped(path))), "");
+        } else {
+            self.line("format", &quoted(source.format.name()), "");
+        }
+        let (before, after) = &source.ends;
+        if let Some((column, _)) = &source.by {
+            self.line("trial", &format!("{{ column = {} }}", quoted(column)), "does it name the trials?");
+        } else if source.shared {
+            self.line("shared", "true", "does this one file hold all trials?");
+        } else if source.ends != Default::default() {
+            let pattern = format!("{}(.*){}", regex::escape(before), regex::escape(after));
+            self.line("trial", &format!("{{ file = {} }}", quoted(&pattern)), "");
         }
     }
-}
 
-fn write_signals(text: &mut String, signals: &[Signal], is_table: bool) {
-    let of = |part: Part| signals.iter().filter(move |signal| signal.part == part && signal.flaw.is_none());
-    text.push('\n');
-    for (part, table, question) in [
-        (Part::Actuator, "actuator", "commanded, or read back from the drive,"),
-        (Part::Measured, "measured", "an output of the robot, for a model to predict,"),
-    ] {
-        let _ = writeln!(text, "# Is each of these {question} in this unit?");
-        of(part).for_each(|signal| text.push_str(&signal_text(signal, table, is_table, "")));
-        if of(part).next().is_none() {
-            let _ = writeln!(text, "# No column is left for it: [[{table}]] needs `column` and `unit`.\n");
+    fn time(&mut self, time: Option<&Time>) {
+        let Some(Time { column, unit, guessed, .. }) = time else {
+            return self.line("time", "{ rate_hz = 100.0 }", "no column looks like time: what is the rate?");
+        };
+        let unit = unit.as_ref().map_or(String::new(), |unit| format!(", unit = {}", quoted(unit)));
+        let question = if *guessed { "is this its unit?" } else { "" };
+        self.line("time", &format!("{{ column = {}{unit} }}", quoted(column)), question);
+    }
+
+    /// Signals of a source that start again at their other end.
+    fn periods(&mut self, signals: &[&Signal]) {
+        let (angles, counters): (Vec<&Signal>, Vec<&Signal>) = signals.iter().partition(|signal| signal.is_angle());
+        self.line("angles", &list(angles.iter().map(|signal| signal.of.name)), "each jumps by a full turn");
+        if !counters.is_empty() {
+            let of = |s: &&Signal| format!("{} = {}", quoted(s.of.name), s.period.unwrap_or_default());
+            let counters = counters.iter().map(of).collect::<Vec<_>>().join(", ");
+            self.line("counters", &format!("{{ {counters} }}"), "each starts again after so many");
         }
     }
-    if of(Part::Unknown).next().is_some() {
-        text.push_str("# What else is known at each sample, such as a load? Delete the # before it.\n");
-    }
-    of(Part::Unknown).take(LISTED).for_each(|signal| text.push_str(&signal_text(signal, "context", is_table, "# ")));
-    of(Part::Unknown).skip(LISTED).for_each(|signal| {
-        let _ = writeln!(text, "# {}", column(signal, is_table));
-    });
-    for (signal, flaw) in signals.iter().filter_map(|signal| Some((signal, signal.flaw.as_ref()?))) {
-        let _ = writeln!(text, "# not used: {}, {flaw}", column(signal, is_table));
-    }
-    if !text.ends_with("\n\n") {
-        text.push('\n');
-    }
-}
 
-/// Name of a column in the manifest, in quotes.
-fn column(signal: &Signal, is_table: bool) -> String {
-    let (source, name) = (&signal.source.name, signal.of.name);
-    if is_table { quoted(name) } else { quoted(&format!("{source}.{name}")) }
-}
-
-fn signal_text(signal: &Signal, table: &str, is_table: bool, comment: &str) -> String {
-    let (column, unit) = (column(signal, is_table), signal.unit.unwrap_or("1"));
-    let question = if unit == "1" { "   # which unit?" } else { "" };
-    let mut text =
-        format!("{comment}[[{table}]]\n{comment}column = {column}\n{comment}unit   = {}{question}\n", quoted(unit));
-    if let Some(name) = signal.plain_name() {
-        let _ = writeln!(text, "{comment}name   = {}", quoted(name));
+    /// The clock of the reference, or that of another source and what is known of it.
+    fn clock(&mut self, folder: &Path, reference: &Found, source: &Found, signals: &[Signal]) {
+        if std::ptr::eq(source, reference) {
+            return self.line("clock", "\"reference\"", "its samples are those of the trials");
+        }
+        let same = "or clock = \"same\", where one computer stamped both";
+        match clocks::located(folder, reference, source, signals) {
+            None => self.line("offset", "\"estimate\"", same),
+            Some((by, found)) => {
+                let offset = format!("{{ estimate = \"estimate\", by = {} }}", list(by));
+                self.line("offset", &offset, &format!("{found}; {same}"));
+            }
+        }
     }
-    if signal.of.empty() > 0 && table == "context" {
-        let _ = writeln!(text, "# it has {} empty cells, which only an output may have", signal.of.empty());
-    }
-    text + "\n"
-}
 
-/// The last of three trials or more is held out. Of fewer, the programs hold out the last part of each.
-fn roles(mut trials: Vec<String>) -> String {
-    trials.sort_by(|a, b| natural::compare(a, b));
-    let held_out = trials.split_off(if trials.len() > 2 { trials.len() - 1 } else { trials.len() });
-    let of = |trials: &[String]| list(trials.iter().map(String::as_str));
-    let (trials, held_out) = (of(&trials), of(&held_out));
-    let question = "# which trials calibrate the nominal model, and which test the result?";
-    format!("[roles]   {question}\ncalibration = []\ndevelopment = {trials}\nheld_out    = {held_out}\n")
+    fn signals(&mut self, signals: &[Signal]) {
+        let of = |part: Part| signals.iter().filter(move |signal| signal.part == part && signal.flaw.is_none());
+        for (part, table, question) in [
+            (Part::Actuator, "actuator", "commanded, or read back from the drive,"),
+            (Part::Measured, "measured", "an output of the robot, for a model to predict,"),
+        ] {
+            self.add(&format!("# Is each of these {question} in this unit?"));
+            of(part).for_each(|signal| self.signal(signal, table));
+            if of(part).next().is_none() {
+                self.add(&format!("# No column is left for it: [[{table}]] needs `column` and `unit`.\n"));
+            }
+        }
+        if of(Part::Unknown).next().is_some() {
+            self.add("# What else is known at each sample, such as a load? Delete the # before it.");
+        }
+        self.comment = "# ";
+        of(Part::Unknown).take(LISTED).for_each(|signal| self.signal(signal, "context"));
+        self.comment = "";
+        of(Part::Unknown).skip(LISTED).for_each(|signal| self.add(&format!("# {}", self.column(signal))));
+        for (signal, flaw) in signals.iter().filter_map(|signal| Some((signal, signal.flaw.as_ref()?))) {
+            self.add(&format!("# not used: {}, {flaw}", self.column(signal)));
+        }
+        if !self.text.ends_with("\n\n") {
+            self.add("");
+        }
+    }
+
+    fn signal(&mut self, signal: &Signal, table: &str) {
+        let unit = signal.unit.unwrap_or("1");
+        self.add(&format!("{}[[{table}]]", self.comment));
+        self.line("column", &self.column(signal), "");
+        self.line("unit", &quoted(unit), if unit == "1" { "which unit?" } else { "" });
+        if let Some(name) = signal.plain_name() {
+            self.line("name", &quoted(name), "");
+        }
+        self.add("");
+    }
+
+    /// Name of a column in the manifest, in quotes.
+    fn column(&self, signal: &Signal) -> String {
+        let (source, name) = (&signal.source.name, signal.of.name);
+        if self.is_table { quoted(name) } else { quoted(&format!("{source}.{name}")) }
+    }
+
+    /// The last of three trials or more is held out. Of fewer, the programs hold out the last part of each.
+    fn roles(&mut self, mut trials: Vec<&str>) {
+        trials.sort_by(|a, b| natural::compare(a, b));
+        let held_out = trials.split_off(if trials.len() > 2 { trials.len() - 1 } else { trials.len() });
+        self.add("[roles]   # which trials calibrate the nominal model, and which test the result?");
+        self.add("calibration = []");
+        self.add(&format!("development = {}", list(trials)));
+        self.add(&format!("held_out    = {}", list(held_out)));
+    }
 }

@@ -2,6 +2,7 @@
 //!
 //! Files with the same columns are trials of one source. A file that lacks some of them, or has more, joins a group whose names it has.
 
+use std::cmp::Reverse;
 use std::collections::BTreeSet;
 use std::path::Path;
 
@@ -18,6 +19,7 @@ use crate::text::natural;
 pub(super) struct File {
     /// Path below the folder.
     pub path: String,
+    pub format: Format,
     pub looks: Vec<Look>,
 }
 
@@ -32,6 +34,22 @@ pub(super) struct Found {
     pub ends: (String, String),
     /// Its one file holds all trials.
     pub shared: bool,
+    /// Column that names the trials, and their names.
+    pub by: Option<(String, Vec<String>)>,
+    /// Of a table.
+    pub time: Option<Time>,
+}
+
+/// The column of time.
+#[derive(Debug)]
+pub(super) struct Time {
+    pub column: String,
+    /// None of a type that carries its own.
+    pub unit: Option<String>,
+    /// The file does not say the unit.
+    pub guessed: bool,
+    /// Duration of all files, s.
+    pub duration: f64,
 }
 
 impl File {
@@ -50,6 +68,11 @@ impl File {
 }
 
 impl Found {
+    fn new(file: File) -> Found {
+        let (name, format, ends) = (String::new(), file.format, Default::default());
+        Found { name, format, files: vec![file], ends, shared: false, by: None, time: None }
+    }
+
     /// Name of a file's trial.
     pub fn trial<'a>(&self, file: &'a File) -> &'a str {
         let stem = file.stem();
@@ -57,30 +80,11 @@ impl Found {
         inner.unwrap_or(stem)
     }
 
-    /// Whether another group has names like its own, and half of its columns.
-    fn takes(&self, other: &Found) -> bool {
-        let (own, others) = (self.files[0].columns(), other.files[0].columns());
-        let (before, after) = &self.ends;
-        let named = |file: &File| file.stem().starts_with(before.as_str()) && file.stem().ends_with(after.as_str());
-        self.format == other.format
-            && !(before.is_empty() && after.is_empty())
-            && other.files.iter().all(named)
-            && 2 * own.intersection(&others).count() >= own.len().max(others.len())
-    }
-
-    /// A word that the names of its files share, or else the format.
-    pub fn set_name(&mut self) {
-        let stem = if self.files.len() == 1 && self.ends == Default::default() { self.files[0].stem() } else { "" };
-        let table = self.format.is_table();
-        let words = [self.ends.1.as_str(), if table { &self.ends.0 } else { "" }, if table { stem } else { "" }];
-        let plain =
-            |word: &str| word.trim_matches(|c: char| !c.is_alphanumeric()).replace(|c: char| !c.is_alphanumeric(), "_");
-        let name = words.into_iter().map(plain).find(|word| !word.is_empty());
-        self.name = name.unwrap_or_else(|| self.format.name().to_string());
-    }
-
     pub fn trials(&self) -> BTreeSet<&str> {
-        self.files.iter().map(|file| self.trial(file)).collect()
+        match &self.by {
+            Some((_, names)) => names.iter().map(String::as_str).collect(),
+            None => self.files.iter().map(|file| self.trial(file)).collect(),
+        }
     }
 
     /// The file of a trial.
@@ -103,66 +107,77 @@ impl Found {
     pub fn rows(&self) -> usize {
         self.files.iter().map(File::rows).sum()
     }
+
+    /// A word that the names of its files share, or else the format.
+    pub fn set_name(&mut self) {
+        let (before, after) = (self.ends.0.as_str(), self.ends.1.as_str());
+        let stem = if self.files.len() == 1 { self.files[0].stem() } else { "" };
+        let words = if self.format.is_table() { [after, before, stem] } else { [after, "", ""] };
+        let plain =
+            |word: &str| word.trim_matches(|c: char| !c.is_alphanumeric()).replace(|c: char| !c.is_alphanumeric(), "_");
+        let name = words.into_iter().map(plain).find(|word| !word.is_empty());
+        self.name = name.unwrap_or_else(|| self.format.name().to_string());
+    }
+
+    /// Whether another group has the same columns.
+    fn equals(&self, other: &Found) -> bool {
+        let is_same = || self.files[0].columns() == other.files[0].columns();
+        self.format == other.format && (!self.format.is_table() || is_same())
+    }
+
+    /// Whether another group has names like its own, and half of its columns.
+    fn takes(&self, other: &Found) -> bool {
+        let (own, others) = (self.files[0].columns(), other.files[0].columns());
+        self.format == other.format
+            && self.ends != Default::default()
+            && other.files.iter().all(|file| self.trial(file) != file.stem())
+            && 2 * own.intersection(&others).count() >= own.len().max(others.len())
+    }
 }
 
-/// A recording; none for a file of another kind, and the reason where it cannot be used.
-pub(super) fn look_at(folder: &Path, path: &Path) -> Result<Option<(Format, File)>, String> {
-    let said = |e: DataError| {
-        let problems = e.problems();
-        let more =
-            if problems.len() > 1 { format!(" (and {} more problems)", problems.len() - 1) } else { String::new() };
-        let first = problems.first().map_or(String::new(), ToString::to_string).replace('\n', " ");
-        let at = [folder.join(path), path.to_path_buf()]
-            .iter()
-            .find_map(|at| first.strip_prefix(&format!("{}", at.display())));
-        at.map_or(first.as_str(), |rest| rest.trim_start_matches([',', ':', ' '])).to_string() + &more
-    };
+/// A recording; `None` for a file of another kind, and the reason where it cannot be used.
+pub(super) fn look_at(folder: &Path, path: &Path) -> Result<Option<File>, String> {
+    let (at, reason) = (folder.join(path), |error| first_problem(&folder.join(path), error));
     let Some(name) = path.to_str().filter(|name| !name.contains(char::is_control)) else {
         return Err("its name has control characters or is not UTF-8: rename it".into());
     };
-    let Some(format) = formats::recognise(&folder.join(path)).map_err(said)?.filter(|_| name != "manifest.toml") else {
-        return Ok(None);
-    };
-    let looks = look::columns(&folder.join(path), format).map_err(said)?;
-    let file = File { path: name.to_string(), looks };
+    let Some(format) = formats::recognise(&at).map_err(reason)? else { return Ok(None) };
+    let file = File { path: name.to_string(), format, looks: look::columns(&at, format).map_err(reason)? };
     match file.rows() {
         0 | 1 => Err("it has no rows of data".into()),
         _ if file.looks.iter().all(|look| look.kind != Held::Number) => Err("it has no column of numbers".into()),
-        _ => Ok(Some((format, file))),
+        _ => Ok(Some(file)),
     }
 }
 
+/// The first problem of a file, without its path.
+fn first_problem(path: &Path, error: DataError) -> String {
+    let problem = error.problems().first().map_or(String::new(), ToString::to_string).replace('\n', " ");
+    let problem = problem.strip_prefix(&path.display().to_string()).unwrap_or(&problem);
+    problem.trim_start_matches([',', ':', ' ']).to_string()
+}
+
 /// Files with the same columns.
-pub(super) fn groups(files: Vec<(Format, File)>) -> Vec<Found> {
-    let mut groups: Vec<Found> = Vec::new();
-    for (format, file) in files {
-        let alike = |found: &&mut Found| {
-            found.format == format && (!format.is_table() || found.files[0].columns() == file.columns())
-        };
-        match groups.iter_mut().find(alike) {
-            Some(found) => found.files.push(file),
-            None => groups.push(Found {
-                name: String::new(),
-                format,
-                files: vec![file],
-                ends: Default::default(),
-                shared: false,
-            }),
-        }
-    }
+pub(super) fn groups(files: Vec<File>) -> Vec<Found> {
+    let mut groups = joined(files.into_iter().map(Found::new).collect(), Found::equals);
     for found in &mut groups {
-        found.ends = names::common(&found.files.iter().map(File::stem).collect::<Vec<_>>());
+        found.ends = names::common(&found.files.iter().map(File::stem).collect::<Vec<_>>(), false);
     }
-    groups.sort_by_key(|found| std::cmp::Reverse(found.files.len()));
+    groups.sort_by_key(|found| Reverse(found.files.len()));
+    joined(groups, Found::takes)
+}
+
+/// Groups to which others that fit are added.
+fn joined(groups: Vec<Found>, fits: fn(&Found, &Found) -> bool) -> Vec<Found> {
     let mut kept: Vec<Found> = Vec::new();
     for found in groups {
-        match kept.iter_mut().find(|large| large.takes(&found)) {
-            Some(large) => {
-                large.files.extend(found.files);
-                large.files.sort_by(|a, b| natural::compare(&a.path, &b.path));
-            }
+        match kept.iter_mut().find(|large| fits(large, &found)) {
+            Some(large) => large.files.extend(found.files),
             None => kept.push(found),
         }
+    }
+    for found in &mut kept {
+        found.files.sort_by(|a, b| natural::compare(&a.path, &b.path));
     }
     kept
 }

@@ -25,21 +25,12 @@ use crate::error::DataError;
 /// # Errors
 /// The file system; a folder without recordings.
 pub fn manifest(folder: &Path) -> Result<String, DataError> {
-    let mut found = sources::folder(folder)?;
+    let found = sources::folder(folder)?;
     if found.sources.is_empty() {
         let left: String = found.left.iter().take(3).map(|(path, reason)| format!("; {path}: {reason}")).collect();
         let more = found.left.len().saturating_sub(3);
         let more = if more > 0 { format!("; and {more} more files") } else { String::new() };
-        let message = format!("{}: no recordings can be read{left}{more}", folder.display());
-        return Err(DataError::Usage(message));
+        return Err(DataError::Usage(format!("{}: no recordings can be read{left}{more}", folder.display())));
     }
-    let reference = &found.sources[0];
-    let trial = if reference.format.is_table() { time::trials(reference) } else { None };
-    if trial.is_some() {
-        // a column of trials belongs to [table], which has one kind of files
-        let others = found.sources.split_off(1);
-        let reason = format!("its columns are others than those of {}", found.sources[0].files[0].path);
-        found.left.extend(others.into_iter().flat_map(|other| other.files).map(|file| (file.path, reason.clone())));
-    }
-    Ok(draft::text(folder, &found, trial.map(|(column, names)| (column, names.into_iter().collect()))))
+    Ok(draft::text(folder, &found))
 }

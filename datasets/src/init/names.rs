@@ -1,7 +1,11 @@
 //! Names: what file names share, patterns of files, units and words in the names of columns, and text in TOML.
 
-use glob::{MatchOptions, Pattern};
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
 
+use glob::Pattern;
+
+use crate::ingest::locate;
 use crate::units::{Dimension, Unit};
 
 /// Characters between the words of a name.
@@ -10,56 +14,51 @@ const BORDERS: [char; 4] = ['_', '-', ' ', '.'];
 /// Units that the last word of a name may be without brackets; one letter is seldom a unit (`motor_A`).
 const BARE: &str = "rad mrad deg m cm mm um km s ms us ns Hz kg mN kN Nm Pa hPa kPa MPa mbar bar psi V mV mA rpm";
 
-/// Beginning and end that names share, cut at the borders of words. A word with digits belongs to the trial.
-pub(super) fn common(names: &[&str]) -> (String, String) {
-    let (before, after) = split(names, &|part| !part.contains(|c: char| c.is_ascii_digit()));
-    let room = names.iter().all(|name| name.len() > before.len() + after.len());
-    (before.to_string(), if room { after.to_string() } else { String::new() })
-}
-
-/// Longest beginning and longest end of the first of several names that all of them have and that `fits`.
-pub(super) fn split<'a>(names: &[&'a str], fits: &dyn Fn(&str) -> bool) -> (&'a str, &'a str) {
-    let [first, _, ..] = names else { return ("", "") };
+/// Longest beginning and end that names share, cut at the borders of words. A word with digits belongs to the trial, if `digits` does
+/// not say otherwise.
+pub(super) fn common(names: &[&str], digits: bool) -> (String, String) {
+    let [first, _, ..] = names else { return Default::default() };
+    let shared = |part: &str, has: fn(&str, &str) -> bool| {
+        (digits || !part.contains(|c: char| c.is_ascii_digit()))
+            && names.iter().all(|name| name.len() > part.len() && has(name, part))
+    };
     let borders = || first.match_indices(BORDERS).map(|(at, _)| at);
-    let all =
-        |part: &str, has: &dyn Fn(&str) -> bool| fits(part) && names.iter().all(|n| n.len() > part.len() && has(n));
-    let begins = borders().map(|at| &first[..=at]).rfind(|part| all(part, &|name| name.starts_with(part)));
-    let ends = borders().map(|at| &first[at..]).find(|part| all(part, &|name| name.ends_with(part)));
-    (begins.unwrap_or_default(), ends.unwrap_or_default())
+    let before = borders().map(|at| &first[..=at]).rfind(|part| shared(part, |name, part| name.starts_with(part)));
+    let after = borders().map(|at| &first[at..]).find(|part| shared(part, |name, part| name.ends_with(part)));
+    let (before, after) = (before.unwrap_or_default(), after.unwrap_or_default());
+    let has_room = names.iter().all(|name| name.len() > before.len() + after.len());
+    (before.to_string(), if has_room { after.to_string() } else { String::new() })
 }
 
-/// Patterns that match these files and none of the others: one with a star, or each file by its name.
-pub(super) fn patterns(files: &[&str], ends: &(String, String), all: &[String]) -> Vec<String> {
-    let folder = |file: &str| file.rsplit_once('/').map_or(String::new(), |(folder, _)| format!("{folder}/"));
-    let Some(first) = files.first() else { return Vec::new() };
-    let extension = first.rsplit_once('.').map_or("", |(_, extension)| extension);
-    let pattern = format!("{}*{}.{extension}", escaped(&(folder(first) + &ends.0)), escaped(&ends.1));
-    let options = MatchOptions { require_literal_separator: true, ..MatchOptions::new() };
-    let exact = Pattern::new(&pattern).is_ok_and(|pattern| {
-        all.iter().all(|name| pattern.matches_with(name, options) == files.contains(&name.as_str()))
-    });
-    if files.len() > 1 && exact { vec![pattern] } else { files.iter().map(|file| escaped(file)).collect() }
+/// Patterns that match these files of a folder and no others: one with a star, or each file by its name.
+pub(super) fn patterns(folder: &Path, files: &[&str], ends: &(String, String)) -> Vec<String> {
+    let (below, extension) = files[0].rsplit_once('.').unwrap_or((files[0], ""));
+    let below = below.rsplit_once('/').map_or(String::new(), |(below, _)| format!("{below}/"));
+    let pattern = format!("{}*{}.{extension}", escaped(&(below + &ends.0)), escaped(&ends.1));
+    let matched: BTreeSet<PathBuf> = locate::matches(folder, &pattern).into_iter().collect();
+    let is_exact = matched == files.iter().map(PathBuf::from).collect();
+    if files.len() > 1 && is_exact { vec![pattern] } else { files.iter().map(|file| escaped(file)).collect() }
 }
 
 /// A name as a pattern; characters that a pattern of a manifest must not have become `?`.
-fn escaped(name: &str) -> String {
+pub(super) fn escaped(name: &str) -> String {
     let pattern = Pattern::escape(name).replace([':', '\\'], "?");
     if pattern.starts_with('~') { pattern.replacen('~', "?", 1) } else { pattern }
 }
 
 /// A text in TOML, on one line.
 pub(super) fn quoted(text: &str) -> String {
-    let inner = text.chars().map(|c| match c {
+    let escaped = |c: char| match c {
         '"' | '\\' => format!("\\{c}"),
         c if c.is_control() => format!("\\u{:04X}", u32::from(c)),
         c => c.to_string(),
-    });
-    format!("\"{}\"", inner.collect::<String>())
+    };
+    format!("\"{}\"", text.chars().map(escaped).collect::<String>())
 }
 
 /// Texts in TOML, as a list.
-pub(super) fn list<'a>(texts: impl IntoIterator<Item = &'a str>) -> String {
-    format!("[{}]", texts.into_iter().map(quoted).collect::<Vec<_>>().join(", "))
+pub(super) fn list(texts: impl IntoIterator<Item: AsRef<str>>) -> String {
+    format!("[{}]", texts.into_iter().map(|text| quoted(text.as_ref())).collect::<Vec<_>>().join(", "))
 }
 
 /// The name of a column without its unit, and that unit: `x [mm]`, `t (s)`, `q1_rad`, or the unit alone.
@@ -90,18 +89,16 @@ pub(super) fn is_time(unit: &str) -> bool {
 
 /// The words of a name in small letters, without digits: `tipPos_x1` has `tip`, `pos` and `x`.
 pub(super) fn words(name: &str) -> Vec<String> {
-    let (mut words, mut lower) = (vec![String::new()], false);
+    let (mut spaced, mut lower) = (String::new(), false);
     for c in name.chars() {
-        if !c.is_alphabetic() || (lower && c.is_uppercase()) {
-            words.push(String::new());
+        if lower && c.is_uppercase() {
+            spaced.push(' ');
         }
         lower = c.is_lowercase();
-        if let Some(word) = words.last_mut().filter(|_| c.is_alphabetic()) {
-            word.extend(c.to_lowercase());
-        }
+        spaced.extend(c.to_lowercase());
     }
-    words.retain(|word| !word.is_empty());
-    words
+    let words = spaced.split(|c: char| !c.is_alphabetic()).filter(|word| !word.is_empty());
+    words.map(str::to_string).collect()
 }
 
 /// Whether a list of words has a word.

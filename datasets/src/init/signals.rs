@@ -6,12 +6,12 @@ use std::collections::BTreeMap;
 use super::column::Column;
 use super::found::Found;
 use super::names;
-use super::time::Time;
 use crate::ingest::periodic;
 use crate::units::Unit;
 
-/// Words of commands and words of measurements: strong ones, and weak ones that tell where no strong one does.
-const WORDS: [(Part, &str); 4] = [
+/// Words of columns that are neither, of commands and of measurements: the strong ones first.
+const WORDS: [(Part, &str); 5] = [
+    (Part::Unknown, "rotation quat quaternion error quality residual temperature temp time timestamp"),
     (
         Part::Actuator,
         "cmd command commanded commands ref reference setpoint sp target desired des goal action soll sollwert",
@@ -24,9 +24,6 @@ const WORDS: [(Part, &str); 4] = [
     (Part::Measured, "x y z pos position marker tip state output displacement weg pose optitrack vicon"),
 ];
 
-/// Words of columns that are neither, whatever else they say.
-const NEITHER: &str = "rotation quat quaternion error quality residual temperature temp time timestamp";
-
 /// Words of the point that matters most.
 const TIP: &str = "tip tool effector";
 
@@ -34,7 +31,7 @@ const TIP: &str = "tip tool effector";
 const PROPOSED: [usize; 2] = [12, 3];
 
 /// What a column is for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Part {
     Actuator,
     Measured,
@@ -54,50 +51,41 @@ pub(super) struct Signal<'a> {
     is_reference: bool,
 }
 
-fn named(name: &str) -> Part {
+/// What a name tells.
+fn named(name: &str) -> Option<Part> {
     let words = names::words(name);
-    let part = WORDS.iter().find(|(_, list)| names::any(&words, list)).map_or(Part::Unknown, |(part, _)| *part);
-    if names::any(&words, NEITHER) { Part::Unknown } else { part }
-}
-
-/// As [`named`]; a name that says nothing is what its group's is.
-fn part_of(source: &Found, name: &str) -> Part {
-    let silent = named(name) == Part::Unknown && !names::any(&names::words(name), NEITHER);
-    named(if silent { &source.name } else { name })
+    WORDS.iter().find(|(_, list)| names::any(&words, list)).map(|(part, _)| *part)
 }
 
 /// Number of commands minus number of measurements, judged by the names of a group and of its columns.
 pub(super) fn commands(found: &Found) -> i32 {
     let vote = |name: &str| match named(name) {
-        Part::Actuator => 1,
-        Part::Measured => -1,
-        Part::Unknown => 0,
+        Some(Part::Actuator) => 1,
+        Some(Part::Measured) => -1,
+        _ => 0,
     };
     100 * vote(&found.name) + found.columns().iter().map(|column| vote(column.name)).sum::<i32>()
 }
 
 /// All columns but those of time and of trials.
-pub(super) fn signals<'a>(sources: &'a [Found], times: &[Option<Time>], trial: Option<&str>) -> Vec<Signal<'a>> {
+pub(super) fn signals(sources: &[Found]) -> Vec<Signal<'_>> {
     let mut signals: Vec<Signal> = Vec::new();
-    for (k, (source, time)) in sources.iter().zip(times).enumerate() {
-        let time = time.as_ref().map(|time| time.column.as_str());
+    for source in sources {
+        let time = source.time.as_ref().map(|time| time.column.as_str());
+        let by = source.by.as_ref().map(|(column, _)| column.as_str());
         let columns = source.columns().into_iter();
-        let others = columns.filter(|column| Some(column.name) != time && Some(column.name) != trial);
-        signals.extend(others.map(|column| Signal::new(source, column, k == 0)));
+        let others = columns.filter(|column| Some(column.name) != time && Some(column.name) != by);
+        signals.extend(others.map(|column| Signal::new(source, column, std::ptr::eq(source, &sources[0]))));
     }
-    keep_few(&mut signals);
-    fill(&mut signals);
+    divide(&mut signals);
     signals
 }
 
 impl<'a> Signal<'a> {
     fn new(source: &'a Found, of: Column<'a>, is_reference: bool) -> Signal<'a> {
-        let (flaw, said) = (of.flaw(), of.looks.iter().find_map(|look| look.unit.as_deref()));
-        let named = part_of(source, of.name);
-        let open = flaw.is_some() || (named == Part::Actuator && of.empty() > 0);
-        let part = if open { Part::Unknown } else { named };
-        let (period, unit) = period(&of, said);
-        Signal { of, source, unit, part, period, flaw, is_reference }
+        let said = of.looks.iter().find_map(|look| look.unit.as_deref());
+        let (flaw, (period, unit)) = (of.flaw(), period(&of, said));
+        Signal { of, source, unit, part: Part::Unknown, period, flaw, is_reference }
     }
 
     /// Name in results, where the column's name has a unit in brackets and no other column is named so.
@@ -112,26 +100,18 @@ impl<'a> Signal<'a> {
         self.unit.and_then(full_turn).is_some()
     }
 
-    fn is_table(&self) -> bool {
-        self.source.format.is_table()
-    }
-
-    fn most(&self) -> usize {
-        PROPOSED[usize::from(!self.is_table())]
+    /// What its name tells; one that says nothing is what its source is.
+    pub fn named(&self) -> Part {
+        named(self.of.name).or_else(|| named(&self.source.name)).unwrap_or(Part::Unknown)
     }
 }
 
 /// The period by which a column jumps, and its unit: one without a unit is tried as an angle, then as a counter.
-fn period<'a>(of: &Column<'a>, unit: Option<&'a str>) -> (Option<f64>, Option<&'a str>) {
+fn period<'a>(of: &Column<'a>, said: Option<&'a str>) -> (Option<f64>, Option<&'a str>) {
     let jumps = |turn| of.looks.iter().find_map(|look| periodic::find(&look.values, turn)).map(|wraps| wraps.period);
-    let angle = |unit| full_turn(unit).and_then(|turn| jumps(Some(turn)));
-    match unit {
-        Some(unit) => (angle(unit), Some(unit)),
-        None => match ["rad", "deg"].into_iter().find_map(|unit| Some((angle(unit)?, unit))) {
-            Some((turn, unit)) => (Some(turn), Some(unit)),
-            None => (jumps(None), None),
-        },
-    }
+    let units = if said.is_some() { vec![said] } else { vec![Some("rad"), Some("deg"), None] };
+    let found = units.into_iter().find_map(|unit| Some((jumps(unit.and_then(full_turn))?, unit)));
+    found.map_or((None, said), |(period, unit)| (Some(period), unit))
 }
 
 /// A full turn in a unit of angles.
@@ -139,54 +119,47 @@ fn full_turn(unit: &str) -> Option<f64> {
     Unit::parse(unit).ok()?.full_turn()
 }
 
-/// Outputs are those of the reference; of motion capture and logs a few, the tip's first.
-fn keep_few(signals: &mut [Signal]) {
-    let commands = signals.iter().any(|signal| signal.is_table() && signal.part == Part::Actuator);
-    let is_tip = |signal: &Signal| signal.is_table() || names::any(&names::words(signal.of.name), TIP);
-    let tip = signals.iter().any(|signal| signal.part == Part::Measured && !signal.is_table() && is_tip(signal));
-    let mut counts = BTreeMap::<(&str, Part), usize>::new();
-    for signal in signals.iter_mut().filter(|signal| signal.part != Part::Unknown) {
-        let elsewhere = match signal.part {
-            Part::Measured => !signal.is_reference || (tip && !is_tip(signal)),
-            _ => commands && !signal.is_table(),
-        };
-        let count = counts.entry((&signal.source.name, signal.part)).or_insert(0);
-        *count += usize::from(!elsewhere);
-        if elsewhere || *count > signal.most() {
-            signal.part = Part::Unknown;
-        }
+/// Outputs are those of the reference; of motion capture, the tip's come first.
+fn rank_as_output(signal: &Signal) -> Option<bool> {
+    let is_first = || signal.source.format.is_table() || names::any(&names::words(signal.of.name), TIP);
+    (signal.is_reference && signal.named() == Part::Measured).then(|| !is_first())
+}
+
+/// Commands are named so, or from another source than the outputs; those of tables come first, and those with empty cells last.
+fn rank_as_actuator(signal: &Signal) -> Option<[bool; 4]> {
+    let is_other = signal.named() != Part::Actuator;
+    let is_sparse = signal.is_reference && signal.of.empty() > 0;
+    Some([is_sparse, is_other, is_other && signal.is_reference, !signal.source.format.is_table()])
+}
+
+/// Proposes actuators and outputs. Where all are one of the two, half of them become the other.
+fn divide(signals: &mut [Signal]) {
+    pick(signals, Part::Measured, rank_as_output);
+    pick(signals, Part::Actuator, rank_as_actuator);
+    pick(signals, Part::Measured, |signal| signal.is_reference.then_some(()));
+    let mut picked: Vec<&mut Signal> = signals.iter_mut().filter(|signal| signal.part != Part::Unknown).collect();
+    if picked.windows(2).all(|pair| pair[0].part == pair[1].part) {
+        let half = picked.len() / 2;
+        let (inputs, outputs) = picked.split_at_mut(half);
+        inputs.iter_mut().for_each(|signal| signal.part = Part::Actuator);
+        outputs.iter_mut().for_each(|signal| signal.part = Part::Measured);
     }
 }
 
-/// Where names tell of no actuator or of no output, open columns become one; where none is open, half of the others do.
-fn fill(signals: &mut [Signal]) {
-    let of = |signals: &[Signal], part: Part| -> Vec<usize> {
-        (0..signals.len()).filter(|k| signals[*k].part == part && signals[*k].flaw.is_none()).collect()
-    };
-    let set = |signals: &mut [Signal], which: &[usize], part| which.iter().for_each(|k| signals[*k].part = part);
-    if of(signals, Part::Actuator).is_empty() {
-        let key = |k: &usize| (signals[*k].is_reference, !signals[*k].is_table());
-        let full = |k: &usize| signals[*k].of.empty() == 0 || !signals[*k].is_reference;
-        let mut pool: Vec<usize> = of(signals, Part::Unknown).into_iter().filter(full).collect();
-        let first = pool.iter().map(key).min();
-        pool.retain(|k| Some(key(k)) == first);
-        let share = if first.is_some_and(|(is_reference, _)| is_reference) && of(signals, Part::Measured).is_empty() {
-            2
-        } else {
-            1
-        };
-        let count = pool.first().map_or(0, |k| (pool.len() / share).min(signals[*k].most()));
-        set(signals, &pool[..count], Part::Actuator);
+/// Where no signal has a part yet, those of the lowest rank get it, a few of each source.
+fn pick<R: Ord>(signals: &mut [Signal], part: Part, rank: fn(&Signal) -> Option<R>) {
+    let is_open = |signal: &Signal| signal.part == Part::Unknown && signal.flaw.is_none();
+    let ranks: Vec<_> = signals.iter().map(|signal| rank(signal).filter(|_| is_open(signal))).collect();
+    let best = ranks.iter().flatten().min();
+    if best.is_none() || signals.iter().any(|signal| signal.part == part) {
+        return;
     }
-    if of(signals, Part::Measured).is_empty() {
-        let pool: Vec<usize> = of(signals, Part::Unknown).into_iter().filter(|k| signals[*k].is_reference).collect();
-        let count = pool.first().map_or(0, |k| pool.len().min(signals[*k].most()));
-        set(signals, &pool[..count], Part::Measured);
-    }
-    let (actuators, outputs) = (of(signals, Part::Actuator), of(signals, Part::Measured));
-    if actuators.is_empty() {
-        set(signals, &outputs[..outputs.len() / 2], Part::Actuator);
-    } else if outputs.is_empty() {
-        set(signals, &actuators[actuators.len().div_ceil(2)..], Part::Measured);
+    let mut counts = BTreeMap::<&str, usize>::new();
+    for (signal, _) in signals.iter_mut().zip(&ranks).filter(|(_, rank)| rank.as_ref() == best) {
+        let count = counts.entry(&signal.source.name).or_default();
+        *count += 1;
+        if *count <= PROPOSED[usize::from(!signal.source.format.is_table())] {
+            signal.part = part;
+        }
     }
 }
