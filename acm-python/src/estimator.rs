@@ -1,6 +1,6 @@
 //! A trained network beside Python: sample by sample, or a trial at once.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use acm_datasets::{Domain, files::regular};
 use acm_eval::{
