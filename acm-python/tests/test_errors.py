@@ -62,8 +62,8 @@ def test_a_frame_is_checked_as_a_file_is(frame):
     texts.loc[3, "q"] = "fast"
     with pytest.raises(acm.DataError, match="fast"):
         acm.Recordings.from_frame(texts, **COLUMNS)
-    lists = frame.assign(q=[[1.0]] * len(frame))
-    with pytest.raises(acm.DataError, match="list"):
+    lists = frame.assign(q=[[1.0, 2.0]] * len(frame))
+    with pytest.raises(acm.DataError, match=r"several numbers each.*action\[0\]"):
         acm.Recordings.from_frame(lists, **COLUMNS)
     with pytest.raises(acm.ConfigError, match="no frame"):
         acm.Recordings.from_frame([1, 2], **COLUMNS)
