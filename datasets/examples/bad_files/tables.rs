@@ -79,6 +79,8 @@ fn time() -> Vec<Case> {
     cases.push(Case::new("negative time", back(12), changed(|rows| rows[10][0] = -5.0)));
     let begins_anew = changed(|rows| rows[30..].iter_mut().for_each(|row| row[0] -= 3000.0));
     cases.push(Case::new("a clock that begins anew", back(32), begins_anew));
+    let alone = said(&["correct the time of row 12, which stands alone"]).row(13).column("t");
+    cases.push(Case::new("a stamp far ahead", alone, changed(|rows| rows[10][0] = 1.7e12)));
     cases
 }
 

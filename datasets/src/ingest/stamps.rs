@@ -4,6 +4,7 @@
 //! | --- | --- |
 //! | a whole number falls from the upper to the lower quarter of 2⁸, 2¹⁶ or 2³² | a counter starts again: unwrap it |
 //! | a date without a zone falls by an hour, to a minute | the end of daylight saving time: write the zone |
+//! | one stamp is beyond the two behind it, which continue the others | correct it, or delete the row |
 //! | it falls otherwise | sort the file, or split the trial |
 //! | it stays, with all values or without | delete one of the rows |
 
@@ -60,7 +61,7 @@ impl Stamps<'_> {
         let (before, after, row) = (self.time[first], self.time[second], (self.row)(second));
         let (path, column, more) = (self.path.to_path_buf(), self.column.to_string(), More::default());
         if after < before {
-            let remedy = self.remedy(first, second);
+            let remedy = self.remedy(first, second, self.is_alone(first, second));
             return DataError::TimeReversed { path, row, column, before, after, more, remedy };
         }
         match (self.repeats)(first, second) {
@@ -69,7 +70,16 @@ impl Stamps<'_> {
         }
     }
 
-    fn remedy(&self, first: usize, second: usize) -> String {
+    /// Whether the stamp of `first` is wrong, after which time falls: two samples behind it continue those before it.
+    fn is_alone(&self, first: usize, second: usize) -> bool {
+        let before = self.time[..first].iter().rev().find(|time| time.is_finite());
+        let next = self.time[second + 1..].iter().find(|time| time.is_finite());
+        let continues = before.is_some_and(|before| *before < self.time[second]);
+        continues && next.is_some_and(|next| (self.time[second]..self.time[first]).contains(next))
+    }
+
+    fn remedy(&self, first: usize, second: usize, is_alone: bool) -> String {
+        let row = (self.row)(first);
         let (first, second) = ((self.index)(first), (self.index)(second));
         if let Some(range) = self.raw.and_then(|raw| rollover(raw[first], raw[second])) {
             let column = self.column;
@@ -84,6 +94,7 @@ impl Stamps<'_> {
                 "the clock was set back by one hour at {clock}, as at the end of daylight saving time: write times with \
                  their zone (+02:00, then +01:00), or in UTC"
             ),
+            None if is_alone => format!("correct the time of row {row}, which stands alone, or delete that row"),
             None => "sort the file or split the trial".into(),
         }
     }
