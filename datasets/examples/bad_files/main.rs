@@ -5,7 +5,7 @@
 //! ```
 //!
 //! The last line is the figure: `300 of 300 with file, row, column`. What has no row (a column that is missing, a file that
-//! is no table) or no column (a row that is too long) must be named as exactly as it can be; the lines before say how many
+//! is not a table) or no column (a row that is too long) must be named as exactly as it can be; the lines before say how many
 //! there are of each. Without `--count`, all are evaluated.
 
 #![allow(missing_docs)]

@@ -61,7 +61,7 @@ impl Target {
         }
     }
 
-    /// The format of a recording that is no table.
+    /// The format of a recording that is not a table.
     fn format(self) -> Option<Format> {
         match self {
             Target::Motive => Some(Format::Motive),

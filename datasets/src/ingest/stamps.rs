@@ -61,7 +61,7 @@ impl Stamps<'_> {
         let (before, after, row) = (self.time[first], self.time[second], (self.row)(second));
         let (path, column, more) = (self.path.to_path_buf(), self.column.to_string(), More::default());
         if after < before {
-            let remedy = self.remedy(first, second, self.is_alone(first, second));
+            let remedy = self.remedy(first, second);
             return DataError::TimeReversed { path, row, column, before, after, more, remedy };
         }
         match (self.repeats)(first, second) {
@@ -78,8 +78,8 @@ impl Stamps<'_> {
         continues && next.is_some_and(|next| (self.time[second]..self.time[first]).contains(next))
     }
 
-    fn remedy(&self, first: usize, second: usize, is_alone: bool) -> String {
-        let row = (self.row)(first);
+    fn remedy(&self, first: usize, second: usize) -> String {
+        let alone = self.is_alone(first, second).then(|| (self.row)(first));
         let (first, second) = ((self.index)(first), (self.index)(second));
         if let Some(range) = self.raw.and_then(|raw| rollover(raw[first], raw[second])) {
             let column = self.column;
@@ -89,13 +89,13 @@ impl Stamps<'_> {
                 range.log2()
             );
         }
-        match self.ticks.and_then(|ticks| ticks.set_back(first, second)) {
-            Some(clock) => format!(
+        match (self.ticks.and_then(|ticks| ticks.set_back(first, second)), alone) {
+            (Some(clock), _) => format!(
                 "the clock was set back by one hour at {clock}, as at the end of daylight saving time: write times with \
                  their zone (+02:00, then +01:00), or in UTC"
             ),
-            None if is_alone => format!("correct the time of row {row}, which stands alone, or delete that row"),
-            None => "sort the file or split the trial".into(),
+            (None, Some(row)) => format!("correct the time of row {row}, which stands alone, or delete that row"),
+            (None, None) => "sort the file or split the trial".into(),
         }
     }
 }

@@ -23,7 +23,7 @@ impl Column<'_> {
         self.looks.iter().map(|look| look.empty).sum()
     }
 
-    /// Whether it has even steps, and is no number of rows.
+    /// Whether it has even steps and does not count rows.
     pub fn is_paced(&self) -> bool {
         self.looks.iter().all(|look| look.pace().is_some()) && !self.counts_rows()
     }

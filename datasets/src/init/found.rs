@@ -1,4 +1,4 @@
-//! Groups of files that hold the same columns, and what their names say of trials.
+//! Groups of files with the same columns, and the trials that their names give.
 //!
 //! Files with the same columns are trials of one source. A file that lacks some of them, or has more, joins a group whose names it has.
 

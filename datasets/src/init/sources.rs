@@ -112,7 +112,7 @@ fn name_apart(groups: &mut [Found]) {
 }
 
 impl Found {
-    /// Why it is no source beside the reference, if it is none.
+    /// Why it cannot be a source beside the reference; `None` if it can.
     fn unlike(&self, reference: &Found) -> Option<String> {
         let first = &reference.files[0];
         let is_short = match (&self.time, &reference.time) {

@@ -83,7 +83,7 @@ fn check(set: &Set) -> (i32, Vec<String>, String) {
     (output.status.code().unwrap_or(-1), warnings, text)
 }
 
-/// Holds the values of the first of some samples in some columns.
+/// Keeps the first of some samples in all of them, in some columns.
 fn hold(rows: &mut [Row], samples: Range<usize>, columns: Range<usize>) {
     let held = rows[samples.start];
     rows[samples].iter_mut().for_each(|row| row[columns.clone()].copy_from_slice(&held[columns.clone()]));
