@@ -2,7 +2,9 @@
 
 pub mod calibration;
 pub mod completion;
+pub mod degree;
 pub mod least_squares;
+pub mod left_out;
 pub mod levenberg_marquardt;
 pub mod linear;
 pub mod multi_start;

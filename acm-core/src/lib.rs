@@ -42,7 +42,7 @@
 //! | [`static_map`] | static discrepancy of a nominal model as a function of the actuators |
 //! | [`effects`], [`fields`] | library of physical effects |
 //! | [`response`], [`augmented`] | nominal model with effects |
-//! | [`order_study`] | number of strain orders that an arm needs |
+//! | [`order_study`], [`degree`] | strain orders that an arm needs, degree of a polynomial, chosen on data |
 //! | [`display`] | numbers and units for readers |
 //!
 //! All quantities are f64 in SI units. The crate reads no files and holds no networks.
@@ -68,7 +68,7 @@ pub use fitting::calibration::{Calibration, CalibrationOptions, Parameter, Stage
 pub use fitting::completion::completed;
 pub use fitting::levenberg_marquardt::StopReason;
 pub use fitting::observations::{CalibrationError, Observations};
-pub use fitting::{calibration, least_squares, levenberg_marquardt, observations, order_study};
+pub use fitting::{calibration, degree, least_squares, left_out, levenberg_marquardt, observations, order_study};
 pub use kinematics::{axis, grid, se3, shape, strain};
 pub use nominal::{NominalModel, NominalSpec};
 pub use recorded::clock_correction::clock_corrected;
