@@ -6,6 +6,7 @@ use std::path::PathBuf;
 
 use crate::levels::Level;
 use crate::manifest::Role;
+use crate::preprocessing::increments::Increments;
 use crate::preprocessing::segments::{max_gap, segments, usual_step};
 use crate::trial::{DropReason, Trial};
 
@@ -24,6 +25,8 @@ pub struct Entry {
     pub max_gap: f64,
     /// Mean and spread of each actuator, then of each context signal.
     pub levels: Vec<Level>,
+    /// Increments of the same signals.
+    pub increments: Vec<Increments>,
     /// Constants, SI.
     pub conditions: BTreeMap<String, f64>,
     /// Samples that were left out, by reason.
@@ -59,7 +62,8 @@ impl Entry {
             samples: trial.samples(),
             longest: segments(&whole.time, max_gap).into_iter().map(samples).max().unwrap_or(0),
             max_gap,
-            levels: columns.map(|column| Level::of(column.iter())).collect(),
+            levels: columns.clone().map(|column| Level::of(column.iter())).collect(),
+            increments: columns.map(|column| Increments::of(column.as_slice())).collect(),
             conditions: trial.conditions.clone(),
             dropped: trial.dropped.clone(),
             file: trial.file.clone(),

@@ -35,7 +35,7 @@ pub use campaign::Campaign;
 pub use entry::Entry;
 pub use error::{DataError, More, Problems};
 pub use manifest::{Manifest, Role};
-pub use preprocessing::channel::{Channel, UnknownChannel, default_channels, rate};
+pub use preprocessing::channel::{Channel, UnknownChannel, default_channels, default_rates, rate};
 pub use preprocessing::domain::{Domain, DomainFilter, domain_filter};
 pub use preprocessing::segments::{max_gap, median_step, segments, usual_step};
 pub use preprocessing::series::{Series, series};

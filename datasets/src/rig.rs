@@ -108,7 +108,7 @@ fn moves(trial: &Trial) -> bool {
 }
 
 /// Median time between samples, s; of an even number the lower middle one, and 0 where no trial has two samples.
-fn step(used: &[&Trial]) -> f64 {
+pub fn step(used: &[&Trial]) -> f64 {
     let (mut time, mut trials) = (Vec::new(), Vec::new());
     for trial in used {
         let first = time.len();

@@ -1,8 +1,9 @@
 //! One recorded run.
 
 use std::borrow::Cow;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
+use std::ops::Range;
 use std::path::PathBuf;
 
 use nalgebra::DMatrix;
@@ -128,6 +129,30 @@ impl Trial {
         }
     }
 
+    /// Returns the samples of `rows` with the inputs of all samples before them, so that whatever has a memory begins at the start of
+    /// the trial.
+    pub fn select_with_past(&self, rows: Range<usize>) -> Trial {
+        let part = self.select(&rows.clone().collect::<Vec<_>>());
+        let (whole, own) = self.with_unmeasured();
+        let (Some(first), Some(last)) = (own.get(rows.start), own.get(rows.end.wrapping_sub(1))) else { return part };
+        let chosen: BTreeSet<usize> = own[rows.clone()].iter().copied().collect();
+        let own: BTreeSet<usize> = own.iter().copied().collect();
+        let leads = |row: &usize| row < first || !own.contains(row);
+        let past = whole.select(&(0..*last).filter(|row| !chosen.contains(row) && leads(row)).collect::<Vec<_>>());
+        let measured = DMatrix::zeros(past.samples(), 0);
+        Trial { unmeasured: Trial::some(Trial { measured, unmeasured: None, ..past }), ..part }
+    }
+
+    /// Separates the inputs before the first sample with an output, where there are some, from the rest.
+    pub fn apart_from_past(&self) -> (Option<Trial>, Trial) {
+        let Some((lost, begins)) = self.unmeasured.as_ref().zip(self.time.first()) else { return (None, self.clone()) };
+        let (before, within): (Vec<usize>, Vec<usize>) =
+            (0..lost.samples()).partition(|sample| lost.time[*sample] < *begins);
+        let with = |own: Trial, lost: Trial| Trial { unmeasured: Trial::some(lost), ..own };
+        let past = (!before.is_empty()).then(|| with(self.select(&[]), lost.select(&before)));
+        (past, with(self.clone(), lost.select(&within)))
+    }
+
     /// Returns a trial of samples without an output, unless it has none.
     pub(crate) fn some(lost: Trial) -> Option<Box<Trial>> {
         (lost.samples() > 0).then(|| Box::new(lost))
@@ -142,5 +167,44 @@ impl fmt::Display for DropReason {
             DropReason::MissingSource => "without another source",
             DropReason::OutsideDomain => "outside of the calibrated domain",
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Six samples at 0, 1, 3, 4, 5, 6 s, and one without an output at 2 s; the actuator is the time.
+    fn trial() -> Trial {
+        let of = |times: &[f64], outputs: usize| Trial {
+            name: "a".into(),
+            role: Role::Development,
+            time: times.to_vec(),
+            actuators: DMatrix::from_column_slice(times.len(), 1, times),
+            context: DMatrix::zeros(times.len(), 0),
+            measured: DMatrix::from_element(times.len(), outputs, 7.0),
+            predicted: None,
+            vehicle: None,
+            conditions: BTreeMap::new(),
+            dropped: BTreeMap::new(),
+            file: PathBuf::new(),
+            unmeasured: None,
+        };
+        let lost = of(&[2.0], 0);
+        Trial { unmeasured: Some(Box::new(lost)), ..of(&[0.0, 1.0, 3.0, 4.0, 5.0, 6.0], 1) }
+    }
+
+    /// Oracle: by hand.
+    #[test]
+    fn a_part_with_its_past_begins_where_the_trial_begins() {
+        let part = trial().select_with_past(3..5);
+        let (whole, own) = part.with_unmeasured();
+        assert_eq!((part.time.as_slice(), own.as_slice()), (&[4.0, 5.0][..], &[4, 5][..]));
+        assert_eq!(whole.actuators.as_slice(), [0.0, 1.0, 2.0, 3.0, 4.0, 5.0]);
+        assert!(whole.measured.iter().take(4).all(|value| value.is_nan()));
+        assert_eq!(trial().select_with_past(0..6), trial());
+        let (past, own) = part.apart_from_past();
+        assert_eq!(past.unwrap().with_unmeasured().0.actuators.as_slice(), [0.0, 1.0, 2.0, 3.0]);
+        assert_eq!(own, trial().select(&[3, 4]));
     }
 }

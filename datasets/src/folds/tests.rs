@@ -18,6 +18,7 @@ fn trials(signals: &[(&str, f64, &[f64])]) -> (Manifest, Vec<Entry>) {
         longest: 100,
         max_gap: 0.5,
         levels: signals.iter().map(|(_, sd, means)| Level { mean: means[trial], variance: sd * sd }).collect(),
+        increments: vec![],
         conditions: BTreeMap::new(),
         dropped: BTreeMap::new(),
         file: "f".into(),

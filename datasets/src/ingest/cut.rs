@@ -61,7 +61,7 @@ fn cut(
             let (trial, part) = (format!("{}:{name}", trial.name), "in this part");
             problems.push(DataError::EmptyPart { at, trial, samples: 0, part, from, to });
         }
-        let mut piece = trial.select(&(start..stop).collect::<Vec<_>>());
+        let mut piece = trial.select_with_past(start..stop);
         piece.name = format!("{}:{name}", trial.name);
         piece.role = part.role.unwrap_or(Role::Excluded);
         if start > 0 {

@@ -11,6 +11,7 @@ use std::ops::Range;
 
 use crate::entry::Entry;
 use crate::manifest::{Manifest, Role};
+use crate::preprocessing::increments::Increments;
 use crate::preprocessing::segments::segments;
 use crate::trial::Trial;
 
@@ -47,12 +48,25 @@ impl fmt::Display for UnknownChannel {
 
 impl std::error::Error for UnknownChannel {}
 
-/// All inputs of a manifest: the actuators, then the context signals.
+/// Returns all inputs of a manifest: the actuators, then the context signals.
 pub fn default_channels(manifest: &Manifest) -> Vec<String> {
-    manifest.actuator.iter().chain(&manifest.context).map(|s| s.name().to_string()).collect()
+    manifest.actuator.iter().chain(&manifest.context).map(|signal| signal.name().to_string()).collect()
+}
+
+/// Returns the rates of those inputs whose increments are motion in the trials that are learned from ([`Increments`]).
+pub fn default_rates(manifest: &Manifest, trials: &[Entry]) -> Vec<String> {
+    let learned = || trials.iter().filter(|trial| matches!(trial.role, Role::Calibration | Role::Development));
+    let moves = |signal: usize| learned().map(|trial| trial.increments[signal]).sum::<Increments>().are_motion();
+    let names = default_channels(manifest).into_iter().enumerate();
+    names.filter(|(signal, _)| moves(*signal)).map(|(_, name)| format!("rate({name})")).collect()
 }
 
 impl Channel {
+    /// Returns whether it is the rate of a signal.
+    pub fn is_rate(&self) -> bool {
+        self.rate
+    }
+
     /// Looks `name` up in the manifest: by name or column of an actuator or context signal, else as a condition that
     /// every trial that is used has.
     ///

@@ -5,6 +5,7 @@
 pub(crate) mod channel;
 pub(crate) mod domain;
 mod hull;
+pub(crate) mod increments;
 pub(crate) mod segments;
 pub(crate) mod series;
 pub(crate) mod standardizer;

@@ -75,5 +75,5 @@ fn the_trunk_with_a_payload() {
     let payload = &rig.contexts[rig.payload.expect("a payload")];
     assert_eq!((payload.low, payload.high, payload.unit.as_str()), (0.0, 0.2, "kg"));
     assert_eq!(rig.arm.map(|arm| [arm.length, arm.down.y]), Some([0.312, -1.0]));
-    assert_eq!(record(&campaign, &campaign.trials[3]).contexts[0], vec![0.2; 900]);
+    assert_eq!(record(&campaign, &campaign.trials[3]).contexts[0], vec![0.2; 3000]);
 }

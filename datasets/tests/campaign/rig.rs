@@ -58,16 +58,16 @@ fn a_carrier_that_moves_has_an_acceleration() {
     assert!(y.iter().chain(&z).all(|a| a.abs() < 1e-9));
 }
 
-/// A part of a trial keeps its time, and begins where it was cut.
+/// A part of a trial is seen with the inputs before it, from the trial's first sample on.
 #[test]
-fn a_part_of_a_trial_begins_at_its_own_first_sample() {
+fn a_part_of_a_trial_has_the_inputs_before_it() {
     let set = Set::new();
     set.edit("manifest.toml", "\"a\", \"b\"", "\"b\"");
     let parts = "head = { until = 2.0, role = \"development\" }\ntail = { role = \"held_out\" }";
     set.edit("manifest.toml", "[roles]", &format!("[cut.a]\n{parts}\n[roles]"));
     let campaign = set.campaign();
     let tail = record(&campaign, campaign.trial("a:tail").expect("tail"));
-    assert_eq!((tail.samples(), tail.time[0], tail.actuator_rates[0].len()), (40, 2.0, 40));
+    assert_eq!((tail.samples(), tail.time[0], tail.actuator_rates[0].len()), (60, 0.0, 60));
 }
 
 #[test]
