@@ -69,7 +69,7 @@ mod steps;
 pub mod torch;
 
 pub use acm_kernels::{
-    Activation, Body, CfcMode, CfcShape, GruShape, Kernel, MlpShape, ParameterShape, Sequences, Shape,
+    Activation, Body, CfcMode, CfcShape, GruShape, Kernel, MlpShape, ParameterShape, Sequences, Shape, Stepper,
 };
 pub use architecture::{Architecture, ConfigError, Keep};
 pub use cfc::{Cfc, CfcConfig};
@@ -79,6 +79,7 @@ pub use gru::{Gru, GruConfig, GruLayer};
 pub use mlp::{Mlp, MlpConfig};
 pub use network::Network;
 pub use networks::{AnyBody, NetworkConfig};
+pub use parameters::first_values::FirstRule;
 pub use parameters::flat::Parameter;
 
 /// Adam, AdamW and RMSprop over slices, beside [`Engine`].

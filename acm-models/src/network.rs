@@ -10,7 +10,7 @@ use burn::nn::Linear;
 use burn::tensor::{Device, Gradients, Tensor};
 
 use crate::networks::{AnyBody, NetworkConfig};
-use crate::parameters::first_values::FirstValues;
+use crate::parameters::first_values::{FirstRule, FirstValues};
 use crate::parameters::flat::{Parameter, gradient, numbers, parameters, row, with_values};
 use crate::pass::{Fused, Reference, Window, pass};
 use crate::steps::Steps;
@@ -40,8 +40,23 @@ impl Network {
     /// # Panics
     /// If the configuration was not validated.
     pub fn new(config: &NetworkConfig, inputs: usize, outputs: usize, seed: u64, device: &Device) -> Self {
+        Self::by(FirstRule::Torch, config, inputs, outputs, seed, device)
+    }
+
+    /// Returns a new network as [`new`](Self::new), with first values by `rule`.
+    ///
+    /// # Panics
+    /// If the configuration was not validated.
+    pub fn by(
+        rule: FirstRule,
+        config: &NetworkConfig,
+        inputs: usize,
+        outputs: usize,
+        seed: u64,
+        device: &Device,
+    ) -> Self {
         let shape = config.shape(inputs, outputs);
-        let mut first = FirstValues::seeded(seed, device);
+        let mut first = FirstValues::by(rule, seed, device);
         let body = config.build(inputs, &mut first);
         let head = first.linear(shape.features(), outputs);
         let mut list = parameters(&body);

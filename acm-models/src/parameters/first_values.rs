@@ -1,12 +1,16 @@
 //! Initial values of trainable parameters.
 //!
-//! They are uniform on (−bound, bound) with torch's bounds:
+//! They are uniform on (−bound, bound):
 //!
-//! | layer                     | bound            | source                          |
-//! | ------------------------- | ---------------- | ------------------------------- |
-//! | linear, weight and bias   | 1/√inputs        | `torch.nn.Linear`               |
-//! | Xavier weight             | √(6/(in + out))  | Glorot and Bengio (2010), eq 16 |
-//! | recurrent, all parameters | 1/√units         | `torch.nn.GRU`                  |
+//! | rule    | layer                     | bound            | source                          |
+//! | ------- | ------------------------- | ---------------- | ------------------------------- |
+//! | `Torch` | linear, weight and bias   | 1/√inputs        | `torch.nn.Linear`               |
+//! |         | Xavier weight             | √(6/(in + out))  | Glorot and Bengio (2010), eq 16 |
+//! |         | recurrent, all parameters | 1/√units         | `torch.nn.GRU`                  |
+//! | `Lecun` | any weight                | √(3/inputs)      | LeCun et al. (1998), Efficient BackProp, eq 16 |
+//! |         | any bias                  | 0                |                                 |
+//!
+//! Torch's recurrent bound depends on the number of units only. With few channels the first gates then hardly depend on them.
 //!
 //! With a seed, parameter i draws from stream i of ChaCha8 under it, in torch's order and layout. Its values depend on
 //! nothing else: not on which thread builds the network, nor on which parameter is used first. Without one they come from
@@ -17,11 +21,24 @@ use burn::nn::Linear;
 use burn::tensor::{Device, Tensor, TensorData};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
+use serde::{Deserialize, Serialize};
+
+/// Rule for initial values; see the head of this file.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum FirstRule {
+    /// Bounds of torch.
+    #[default]
+    Torch,
+    /// Weights of variance 1/inputs, biases of 0.
+    Lecun,
+}
 
 /// Source of parameters with their initial values.
 #[derive(Debug)]
 pub(crate) struct FirstValues<'a> {
     device: &'a Device,
+    rule: FirstRule,
     /// Seed of the initial values; none for burn's generator.
     seed: Option<u64>,
     stream: u64,
@@ -30,16 +47,26 @@ pub(crate) struct FirstValues<'a> {
 impl<'a> FirstValues<'a> {
     /// Returns the initial values from burn's generator.
     pub fn of_burn(device: &'a Device) -> Self {
-        Self { device, seed: None, stream: 0 }
+        Self { device, rule: FirstRule::Torch, seed: None, stream: 0 }
     }
 
-    /// Returns the initial values from `seed` alone.
+    /// Returns the initial values by torch's rule from `seed` alone.
     pub fn seeded(seed: u64, device: &'a Device) -> Self {
-        Self { device, seed: Some(seed), stream: 0 }
+        Self::by(FirstRule::Torch, seed, device)
     }
 
-    /// Returns the next parameter, in torch's layout.
+    /// Returns the initial values by `rule` from `seed` alone.
+    pub fn by(rule: FirstRule, seed: u64, device: &'a Device) -> Self {
+        Self { device, rule, seed: Some(seed), stream: 0 }
+    }
+
+    /// Returns the next parameter, in torch's layout: `bound` is torch's.
     pub fn next<const D: usize>(&mut self, shape: [usize; D], bound: f64) -> Param<Tensor<D>> {
+        let bound = match (self.rule, shape.as_slice()) {
+            (FirstRule::Torch, _) => bound,
+            (FirstRule::Lecun, [_, inputs]) => lecun_bound(*inputs),
+            (FirstRule::Lecun, _) => 0.0,
+        };
         match self.drawn(shape.iter().product(), bound) {
             Some(values) => Param::from_data(TensorData::new(values, shape), self.device),
             None => uniform(bound).init(shape, self.device),
@@ -59,6 +86,7 @@ impl<'a> FirstValues<'a> {
     /// Returns the linear layer with weights within `bound`. burn holds a weight as [inputs, outputs], torch as
     /// [outputs, inputs].
     fn linear_within(&mut self, inputs: usize, outputs: usize, bound: f64) -> Linear {
+        let bound = if self.rule == FirstRule::Lecun { lecun_bound(inputs) } else { bound };
         let weight = match self.drawn(outputs * inputs, bound) {
             Some(values) => {
                 let turned = transposed(&values, inputs);
@@ -97,6 +125,11 @@ pub(crate) fn xavier_bound(inputs: usize, outputs: usize) -> f64 {
     (6.0 / (inputs + outputs) as f64).sqrt()
 }
 
+/// Returns the bound √(3/in): uniform values within it have the variance 1/in.
+fn lecun_bound(inputs: usize) -> f64 {
+    (3.0 / inputs as f64).sqrt()
+}
+
 /// Draws a number uniformly from [−1, 1), from the top 53 bits.
 fn symmetric(generator: &mut ChaCha8Rng) -> f64 {
     (generator.next_u64() >> 11) as f64 / (1u64 << 52) as f64 - 1.0
@@ -129,6 +162,21 @@ mod tests {
         let device = Device::flex();
         let linear = FirstValues::of_burn(&device).linear(100, 100);
         check(&linear.weight.val().into_data().try_to_vec::<f32>().expect("f32"));
+    }
+
+    /// Oracle: variance 1/inputs, whatever the number of outputs; biases are zero.
+    #[test]
+    fn lecun_values_depend_on_the_inputs_alone() {
+        let device = Device::flex();
+        let mut first = FirstValues::by(FirstRule::Lecun, 3, &device);
+        let numbers = |values: Tensor<2>| values.into_data().try_to_vec::<f32>().expect("f32");
+        let recurrent = numbers(first.next([2000, 4], 7.0).val());
+        let linear = first.linear(4, 2000);
+        assert_eq!(linear.bias.expect("a bias").val().into_data().try_to_vec::<f32>().expect("f32"), [0.0; 2000]);
+        for values in [recurrent, numbers(linear.weight.val())] {
+            let variance = values.iter().map(|v| f64::from(*v).powi(2)).sum::<f64>() / values.len() as f64;
+            assert!((variance - 0.25).abs() < 0.01, "{variance}");
+        }
     }
 
     #[test]
