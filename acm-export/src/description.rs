@@ -30,6 +30,7 @@ pub fn of(parts: &Parts, origin: &Origin, hash: &str) -> Value {
         "channels": channels,
         "inputs": { "mean": parts.inputs.mean, "spread": parts.inputs.spread },
         "targets": { "mean": parts.targets.mean, "spread": parts.targets.spread },
+        "straight": parts.straight,
         "max_gap": parts.max_gap,
         "first_elapsed": parts.first_elapsed,
         "window": window,

@@ -125,6 +125,7 @@ fn parts(nominal: Nominal, state: StateRule) -> Parts {
         labels: None,
         actuators: vec![],
         factor: 1.0,
+        straight: vec![],
         max_gap: 0.5,
         first_elapsed: STEP,
         state,

@@ -33,6 +33,7 @@ impl Parts {
             weights: vec![0.0; parameters],
             members: vec![],
             factor: 0.0,
+            straight: vec![],
             max_gap: f64::MAX,
             first_elapsed: step,
             state: StateRule::Running,

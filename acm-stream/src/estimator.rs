@@ -264,8 +264,9 @@ impl Estimator {
             }
         }
         let (nominal, count) = (&self.next.markers[tip.clone()], self.residuals.len() as f64);
-        for ((out, nominal), added) in self.next.tip.iter_mut().zip(nominal).zip(&self.added) {
-            *out = nominal + factor * (added / count);
+        for (o, ((out, nominal), added)) in self.next.tip.iter_mut().zip(nominal).zip(&self.added).enumerate() {
+            let refined = factor * (added / count);
+            *out = nominal + straight(&self.parts.straight, &self.channels, o).map_or(refined, |path| refined + path);
         }
         finite("output", self.next.tip.iter().copied())
             .inspect_err(|_| self.residuals.iter_mut().for_each(Residual::undo))
@@ -276,6 +277,13 @@ impl Estimator {
         self.time = Some(self.time.unwrap_or(0.0) + elapsed);
         std::mem::swap(&mut self.answer, &mut self.next);
     }
+}
+
+/// Returns the straight path's share of output `o`, where there is a path.
+fn straight(weights: &[Vec<f64>], channels: &[f32], o: usize) -> Option<f64> {
+    let (constant, weights) = weights.split_last()?;
+    let products = weights.iter().zip(channels).map(|(row, channel)| row[o] * f64::from(*channel));
+    Some(products.fold(constant[o], |sum, product| sum + product))
 }
 
 /// Refuses the first value that is not finite or too large.

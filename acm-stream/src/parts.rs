@@ -53,6 +53,10 @@ pub struct Parts {
     /// Shrinkage factor on the network's output, 0 to 1; 1 in files of earlier versions.
     #[serde(default = "whole")]
     pub factor: f64,
+    /// Straight path beside the network, one row for each standardised channel and a last for the constant, with a weight for each
+    /// output, SI; empty where there is none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub straight: Vec<Vec<f64>>,
     /// Gap after which the network's state is reset, s.
     pub max_gap: f64,
     /// Elapsed time at the first sample and at the first after a gap: the median step, s.
@@ -219,6 +223,19 @@ impl Parts {
         }
         if !(0.0..=1.0).contains(&self.factor) {
             return Err(PartsError::Value { what: "the factor", value: self.factor, remedy: "from 0 to 1" });
+        }
+        if !self.straight.is_empty() {
+            count("rows of the straight path", self.straight.len(), self.channels.len() + 1)?;
+        }
+        for weights in &self.straight {
+            count("weights of the straight path", weights.len(), self.tip.len())?;
+            if let Some(&value) = weights.iter().find(|weight| !weight.is_finite()) {
+                return Err(PartsError::Value {
+                    what: "a weight of the straight path",
+                    value,
+                    remedy: "a finite number",
+                });
+            }
         }
         if let Some(interval) = &self.interval {
             count("half-widths", interval.half_widths.len(), self.tip.len())?;

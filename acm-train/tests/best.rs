@@ -27,6 +27,8 @@ use campaign::{Campaign, inputs};
 const STUDY: &str = r#"
 study    = "best"
 question = "Which model shall I use?"
+[set]
+nominal.degree = 3
 [[base]]
 name       = "wind"
 experiment = "tiny.toml"

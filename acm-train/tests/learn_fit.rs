@@ -227,7 +227,7 @@ fn every_flipped_bit_of_a_checkpoint_is_found() {
 
     let (device, parts) = (Device::flex(), parts());
     let task = Task { network: &config, training: &training, supervise: Keep::Last, seed: 1, device: &device };
-    let identity = Identity::new(&task, &parts.training, &parts.validation);
+    let identity = Identity::new(&task, &parts.training, Some(&parts.validation));
     let network = Network::new(&config, 2, 1, 1, &device);
     assert!(checkpoint::read(&path, &identity, &network).unwrap().is_some());
     let refused = |bytes: &[u8], what: &str| {

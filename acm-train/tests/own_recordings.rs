@@ -97,10 +97,13 @@ fn learn(folder: &Path, trials: &[&str], manifest: &str) -> Vec<RunRecord> {
 fn the_chapter_leads_to_a_result() {
     let folder = tempfile::tempdir().unwrap();
     let records = learn(folder.path(), &["a", "b", "c", "d", "e"], &manifest());
-    assert_eq!(records.len(), 1);
-    assert_eq!(records[0].channels, ["q1"]);
-    assert_eq!((records[0].split.training.len(), records[0].split.validation.len()), (2, 1));
-    let errors = &records[0].held_out.as_ref().unwrap().trials;
+    // Each of the three development trials is left out once, and the final run learns from all trials.
+    let (last, folds) = records.split_first().unwrap();
+    assert_eq!((folds.len(), last.id.as_str()), (3, "final-seed1"));
+    assert_eq!(last.channels, ["q1", "rate(q1)"]);
+    assert_eq!((last.split.training.len(), last.split.validation.len()), (4, 0));
+    assert!(folds.iter().all(|fold| (fold.split.training.len(), fold.split.validation.len()) == (3, 1)));
+    let errors = &last.held_out.as_ref().unwrap().trials;
     assert_eq!(errors.keys().collect::<Vec<_>>(), ["e"]);
 }
 

@@ -6,7 +6,6 @@
 mod clocks;
 
 use acm_core::nominal::NominalSpec;
-use acm_core::record::Record;
 use acm_datasets::{Campaign, Role, Trial};
 use acm_trace::case::{Case, Trial as Recorded};
 use acm_trace::holdout::Holdout;
@@ -87,27 +86,17 @@ pub fn recordings(campaign: &Campaign, nominal: NominalSpec, own_prediction: boo
 }
 
 fn recorded(campaign: &Campaign, trial: &Trial, own_prediction: bool) -> Recorded {
-    let (whole, _) = trial.with_unmeasured();
+    let is_part = trial.name.rsplit_once(':').is_some_and(|(whole, _)| campaign.manifest.cut.contains_key(whole));
+    let (past, own) = if is_part { trial.apart_from_past() } else { (None, trial.clone()) };
+    let (whole, _) = own.with_unmeasured();
     Recorded {
         name: trial.name.clone(),
-        record: acm_datasets::rig::record(campaign, trial),
-        lead: lead(campaign, trial),
+        record: acm_datasets::rig::record(campaign, &own),
+        lead: past.map(|past| acm_datasets::rig::record(campaign, &past)),
         measured: whole.measured.clone(),
         predicted: whole.predicted.clone().filter(|_| own_prediction),
         offset: None,
     }
-}
-
-/// Returns the signals of the parts of the same record that end where a part begins; none for a trial that is not cut.
-fn lead(campaign: &Campaign, trial: &Trial) -> Option<Record> {
-    let (whole, _) = trial.name.rsplit_once(':').filter(|(whole, _)| campaign.manifest.cut.contains_key(*whole))?;
-    let is_part = |other: &&Trial| other.name.rsplit_once(':').is_some_and(|(of, _)| of == whole);
-    let begins = *trial.time.first()?;
-    let mut before: Vec<&Trial> =
-        campaign.trials.iter().filter(is_part).filter(|other| other.time[0] < begins).collect();
-    before.sort_by(|a, b| a.time[0].total_cmp(&b.time[0]));
-    let records = before.into_iter().map(|part| acm_datasets::rig::record(campaign, part));
-    records.reduce(|first, then| first.followed_by(&then))
 }
 
 fn cut(trial: &Trial) -> (Trial, Trial) {

@@ -16,18 +16,19 @@ use std::path::{Path, PathBuf};
 use crate::closed_loop::folder;
 use crate::error::EvalError;
 use acm_core::{NominalModel, augmented::AugmentedModel};
-use acm_datasets::{Campaign, Domain, Role, Trial, WindowSpec, rig::rig, windows};
-use acm_models::{Keep, Network};
+use acm_datasets::{Domain, Manifest, Role, rig};
 use acm_stream::{ChannelRange, Interval, Nominal, Parts, Scaler, Shape, Signals, StateRule};
-use acm_train::config::{self, ConfigError, Elapsed, Experiment, Source, Target, device};
-use acm_train::learn::checkpoint::{self, Identity};
-use acm_train::learn::{Scalers, Task, WindowSet, ensemble};
-use acm_train::run::data::prepare::{Part, channels, filtered};
+use acm_train::config::{self, Elapsed, Experiment, Source};
+use acm_train::learn::straight::Straight;
 use acm_train::run::evaluation::intervals;
 use acm_train::run::evaluation::verdict::{self, Answer};
 use acm_train::run::nominal::{augmented, group};
-use acm_train::run::plan::Plan;
-use acm_train::run::record::{CalibrationPair, FoldStamp, NominalSource, RunRecord, Stage, read_nominal, read_records};
+use acm_train::run::progress::Progress;
+use acm_train::run::record::{CalibrationPair, NominalSource, RunRecord, Stage, read_nominal, read_records};
+use acm_train::run::stop::Stop;
+use acm_train::run::trained::Trained;
+use acm_train::schedule::ready::{Campaigns, Ready};
+use acm_train::schedule::request::Request as Job;
 
 use super::wiring::Wiring;
 
@@ -78,7 +79,7 @@ pub fn load(request: &Request) -> Result<Saved, EvalError> {
     if !file.is_file() || !request.run.join("records").is_dir() {
         return Err(EvalError::NotARun { path: request.run.into(), missing: "experiment.toml or no records/" });
     }
-    let (mut experiment, source) = config::read(&file, &[])?;
+    let (experiment, source) = config::read(&file, &[])?;
     if experiment.baseline.is_some() {
         let what = format!("{} holds a {}, no network", request.run.display(), experiment.kind());
         return Err(EvalError::Usage(format!("{what}; give a run folder without [baseline]")));
@@ -92,32 +93,31 @@ pub fn load(request: &Request) -> Result<Saved, EvalError> {
         let what = format!("{} is not what {} was run with", file.display(), record.id);
         return Err(EvalError::Data(format!("{what}; bring the former file back")));
     }
-    let (campaign, model, domain) = data(&mut experiment, &source, &record, request)?;
-    let channels = channels(&mut experiment, &source, &campaign.manifest, &campaign.entries(f64::INFINITY))?;
-    let nominal = read_nominal(request.run)?;
-    let plan = plan(&record, &experiment);
-    let pair = nominal.calibrations.get(&group(&campaign.manifest, &plan)).ok_or_else(|| {
+    let opened = Opened::new(experiment, &source, request)?;
+    let Opened { ready, model, domain } = &opened;
+    let plan = ready.plans.iter().find(|plan| plan.id == record.id).ok_or_else(|| {
+        let what = format!("{}: {} is not planned any more", request.run.display(), record.id);
+        EvalError::Data(format!("{what}; the program has changed since: train again with another --out"))
+    })?;
+    let (setting, manifest) = (ready.setting(), &ready.data.manifest);
+    let pair = ready.nominal.calibrations.get(&group(manifest, plan)).ok_or_else(|| {
         let what = format!("{}: nominal.json has no calibration for {}", request.run.display(), record.id);
         EvalError::Data(format!("{what}; the file is damaged: train again with another --out"))
     })?;
-    let part = |names: &[String]| Part::new(names, &campaign, pair, &channels, &experiment);
-    let (training, validation) = (part(&plan.split.training), part(&plan.split.validation));
-    let scalers = Scalers::of(&training.series);
-    let mut weights = weights(&experiment, &record, request, [&training, &validation], &scalers)?;
-    let nominal = predicts(nominal.source, pair, model, &campaign);
-    let wiring = Wiring::new(&campaign.manifest, &channels, &nominal)?;
-    let used: Vec<&Trial> = campaign.trials.iter().filter(|trial| plan.split.training.contains(&trial.name)).collect();
-    let asked = &experiment.windows;
-    let interval = interval(request.run)?;
+    let Trained { scalers, ranges, mut weights } =
+        Trained::read(&setting, plan, record.members.len().max(1), request.run)?;
+    let nominal = predicts(ready.nominal.source, pair, model.clone(), manifest);
+    let wiring = Wiring::new(manifest, setting.channels, &nominal)?;
+    let asked = &setting.experiment.windows;
     let scaler = |s: acm_datasets::Standardizer| Scaler { mean: s.mean, spread: s.spread };
     let parts = Parts {
         signals: Signals { actuators: wiring.actuators(), contexts: wiring.contexts() },
         nominal,
-        tip: campaign.tip_columns(),
+        tip: manifest.tip_columns(),
         channels: wiring.channels.clone(),
-        ranges: ranges(&training, channels.len()),
+        ranges: Some(ranges.into_iter().map(|(low, high)| ChannelRange { low, high }).collect()),
         network: Shape {
-            body: experiment.network.architecture().body(),
+            body: setting.experiment.network.architecture().body(),
             inputs: scalers.inputs.mean.len(),
             outputs: scalers.targets.mean.len() + scalers.actuators.len(),
         },
@@ -125,15 +125,17 @@ pub fn load(request: &Request) -> Result<Saved, EvalError> {
         targets: scaler(scalers.targets),
         weights: weights.remove(0),
         members: weights,
-        actuators: scalers.actuators.clone(),
-        interval,
+        actuators: scalers.actuators,
+        straight: scalers.straight.as_ref().map_or(vec![], Straight::rows),
+        interval: interval(request.run)?,
         labels: Some(wiring.labels()),
         factor: record.factor,
         max_gap: asked.gap(),
-        first_elapsed: rig(&campaign, &used).step,
+        first_elapsed: opened.step(&plan.split.training)?,
         state: if request.windows { StateRule::Window(asked.length) } else { StateRule::Running },
     };
-    Ok(Saved { parts, wiring, domain, id: record.id, title: campaign.manifest.title, doubt })
+    let title = manifest.title.clone();
+    Ok(Saved { parts, wiring, domain: domain.clone(), id: record.id, title, doubt })
 }
 
 /// Returns the nominal model of a run folder without its network, once for each calibration.
@@ -141,33 +143,55 @@ pub fn load(request: &Request) -> Result<Saved, EvalError> {
 /// # Errors
 /// As [`load`].
 pub fn alone(request: &Request) -> Result<Vec<Saved>, EvalError> {
-    let (mut experiment, source) = config::read(&request.run.join("experiment.toml"), &[])?;
+    let (experiment, source) = config::read(&request.run.join("experiment.toml"), &[])?;
     let records = read_records(request.run)?;
     let record = records.first().ok_or_else(|| EvalError::NoRecords { path: request.run.into() })?;
-    let (campaign, model, domain) = data(&mut experiment, &source, record, request)?;
-    let calibrations = read_nominal(request.run)?;
-    let used: Vec<&Trial> = campaign.trials.iter().filter(|trial| trial.role != Role::Excluded).collect();
+    let opened = Opened::new(experiment, &source, request)?;
+    let Opened { ready: Ready { data, nominal: calibrations, .. }, model, domain } = &opened;
+    let manifest = &data.manifest;
+    let used: Vec<String> =
+        (data.entries.iter().filter(|entry| entry.role != Role::Excluded)).map(|entry| entry.name.clone()).collect();
+    let step = opened.step(&used)?;
     let one = |pair: &CalibrationPair| {
-        let nominal = predicts(calibrations.source, pair, model.clone(), &campaign);
-        let wiring = Wiring::new(&campaign.manifest, &[], &nominal)?;
+        let nominal = predicts(calibrations.source, pair, model.clone(), manifest);
+        let wiring = Wiring::new(manifest, &[], &nominal)?;
         let signals = Signals { actuators: wiring.actuators(), contexts: wiring.contexts() };
-        let mut parts = Parts::alone(signals, nominal, campaign.tip_columns(), rig(&campaign, &used).step)
+        let mut parts = Parts::alone(signals, nominal, manifest.tip_columns(), step)
             .map_err(|error| EvalError::Data(format!("{}: {error}", request.run.display())))?;
         parts.labels = Some(wiring.labels());
-        let (domain, title) = (domain.clone(), campaign.manifest.title.clone());
+        let (domain, title) = (domain.clone(), manifest.title.clone());
         Ok(Saved { parts, wiring, domain, id: record.id.clone(), title, doubt: None })
     };
     calibrations.calibrations.values().map(one).collect()
 }
 
-/// Returns the smallest and largest value of each channel in the training part.
-fn ranges(training: &Part, channels: usize) -> Option<Vec<ChannelRange>> {
-    let of = |c: usize| {
-        let samples =
-            training.series.iter().flat_map(|series| (0..series.time.len()).map(move |t| series.inputs[(t, c)]));
-        ChannelRange::of(samples)
-    };
-    (0..channels).map(of).collect()
+/// A run folder with the data of its runs, prepared as they were.
+struct Opened {
+    ready: Ready,
+    /// Model with effects that predicts, where the experiment names one.
+    model: Option<AugmentedModel>,
+    domain: Domain,
+}
+
+impl Opened {
+    fn new(experiment: Experiment, source: &Source, request: &Request) -> Result<Self, EvalError> {
+        let (progress, stop) = (Progress::Quiet, Stop::default());
+        let job = Job { data: request.data, ..Job::new(request.run, &progress, &stop) };
+        let nominal = read_nominal(request.run)?;
+        let ready = Ready::calibrated(experiment, source, &job, &mut Campaigns::default(), nominal)?;
+        let named = ready.experiment.nominal.augmented.as_ref();
+        let model = named.map(|named| model(named, source)).transpose()?;
+        let calibration: Vec<String> = ready.data.of_role(Role::Calibration).map(|entry| entry.name.clone()).collect();
+        let filter = ready.experiment.inputs.domain_filter;
+        let domain = Domain::fit_stream(filter, || ready.data.trials(&calibration)).map_err(EvalError::Table)?;
+        Ok(Self { ready, model, domain })
+    }
+
+    /// Returns the median time between samples of some trials, s.
+    fn step(&self, trials: &[String]) -> Result<f64, EvalError> {
+        let trials: Vec<_> = self.ready.data.trials(trials).collect::<Result<_, _>>().map_err(EvalError::Table)?;
+        Ok(rig::step(&trials.iter().map(|trial| &**trial).collect::<Vec<_>>()))
+    }
 }
 
 /// Refuses the folder of a closed loop, which holds a model and no network.
@@ -233,105 +257,23 @@ pub fn chosen(records: Vec<RunRecord>, run: &Path, id: Option<&str>) -> Result<R
     })
 }
 
-/// Returns the data that the network was trained on, the model with effects that predicted them, and the domain of
-/// their filter.
-fn data(
-    experiment: &mut Experiment,
-    source: &Source,
-    record: &RunRecord,
-    request: &Request,
-) -> Result<(Campaign, Option<AugmentedModel>, Domain), EvalError> {
-    let folder = config::find_folder(&experiment.data, source.path()).ok_or_else(|| {
-        let what = format!("{}: the data of this run were in {:?}", request.run.display(), experiment.data);
-        EvalError::Data(format!("{what}, and there is no such folder here; start where acm-train was started"))
-    })?;
-    let campaign = Campaign::read(&folder, request.data).map_err(EvalError::Table)?;
-    if campaign.hash != record.data.hash {
-        return Err(EvalError::Data(format!(
-            "{}: these are not the data that {} was trained on (hash {}, then {}); bring the former back, or train again",
-            folder.display(),
-            request.run.display(),
-            short(&campaign.hash),
-            short(&record.data.hash)
-        )));
-    }
-    let campaign = augmented::predicted(campaign, &mut experiment.nominal, source)?.campaign;
-    let model = experiment.nominal.augmented.as_ref().map(|named| model(named, source)).transpose()?;
-    let calibration: Vec<&Trial> = campaign.trials(Role::Calibration).collect();
-    let domain = Domain::fit(experiment.inputs.domain_filter, &calibration).map_err(EvalError::Table)?;
-    Ok((filtered(campaign, experiment)?, model, domain))
-}
-
-fn short(hash: &str) -> String {
-    hash.chars().take(12).collect()
-}
-
 /// Returns the saved model, which has been checked against its hash and the data by now.
 fn model(named: &Path, source: &Source) -> Result<AugmentedModel, EvalError> {
     let file: PathBuf = config::find_file(named, source.path()).unwrap_or_else(|| named.into());
     Ok(augmented::read(&file)?)
 }
 
-fn plan(record: &RunRecord, experiment: &Experiment) -> Plan {
-    let before = || FoldStamp {
-        made: String::new(),
-        count: 0,
-        value_of: None,
-        fold: match record.stage {
-            Stage::CrossValidation { fold } => fold,
-            Stage::Final => experiment.protocol.validation_fold.unwrap_or(0),
-        },
-    };
-    let (id, folds) = (record.id.clone(), record.folds.clone().unwrap_or_else(before));
-    Plan { id, stage: record.stage, seed: record.seed, folds, split: record.split.clone() }
-}
-
 fn predicts(
     source: NominalSource,
     pair: &CalibrationPair,
     model: Option<AugmentedModel>,
-    campaign: &Campaign,
+    manifest: &Manifest,
 ) -> Nominal {
-    let outputs = campaign.manifest.measured.len();
+    let outputs = manifest.measured.len();
     match (model, &pair.nominal, source) {
         (Some(model), ..) => Nominal::Augmented(model),
         (None, Some(calibration), _) => Nominal::Model(calibration.model.clone()),
         (None, None, NominalSource::Predicted) => Nominal::Given(outputs),
         (None, None, _) => Nominal::Model(NominalModel::None { outputs }),
     }
-}
-
-/// Returns the weights of the best epoch of each network, if the checkpoint is of this experiment on these windows.
-fn weights(
-    experiment: &Experiment,
-    record: &RunRecord,
-    request: &Request,
-    [training, validation]: [&Part; 2],
-    scalers: &Scalers,
-) -> Result<Vec<Vec<f32>>, EvalError> {
-    let asked = &experiment.windows;
-    let set = |part: &Part, stride| {
-        let spec = WindowSpec { length: asked.length, reach: asked.reach, stride };
-        WindowSet::new(&part.series, windows(&part.series, &spec), asked.length, scalers)
-    };
-    let (training, validation) = (set(training, asked.stride), set(validation, asked.evaluation_stride));
-    let supervise = match asked.target {
-        Target::Last => Keep::Last,
-        Target::Every => Keep::Every,
-    };
-    // Whatever device trained it, its weights are the same numbers.
-    let device = &device("flex").map_err(ConfigError::from)?;
-    let one = |member: usize| {
-        let seed = ensemble::seed(record.seed, member);
-        let task = Task { network: &experiment.network, training: &experiment.training, supervise, seed, device };
-        let network = Network::new(task.network, training.channels(), training.widths().said(), task.seed, task.device);
-        let path = ensemble::checkpoint(&request.run.join(format!("checkpoints/{}.safetensors", record.id)), member);
-        let progress = checkpoint::read(&path, &Identity::new(&task, &training, &validation), &network)?;
-        let missing = || {
-            let what = format!("{}: the checkpoint is missing", path.display());
-            EvalError::Data(format!("{what}; bring it back, or delete its record and run `acm-train --resume`"))
-        };
-        Ok(progress.ok_or_else(missing)?.best)
-    };
-    (0..record.members.len().max(1)).map(one).collect()
 }

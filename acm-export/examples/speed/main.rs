@@ -135,6 +135,7 @@ fn parts(nominal: Nominal) -> Parts {
         weights: (0..parameters).map(|j| 0.2 * (1.3 * j as f32).sin()).collect(),
         network,
         factor: 0.8,
+        straight: vec![],
         members: vec![],
         actuators: vec![],
         interval: None,

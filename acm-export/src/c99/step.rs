@@ -66,6 +66,12 @@ fn tables(parts: &Parts) -> String {
     text += &doubles("CHANNEL_SPREAD", &parts.inputs.spread);
     text += &doubles("TARGET_MEAN", &parts.targets.mean);
     text += &doubles("TARGET_SPREAD", &parts.targets.spread);
+    if !parts.straight.is_empty() {
+        let weights: Vec<Vec<String>> =
+            parts.straight.iter().map(|row| row.iter().map(|weight| double(*weight)).collect()).collect();
+        text += "/* Straight path beside the network: of each channel, then the constant. */\n";
+        text += &rows("double", "STRAIGHT", &weights);
+    }
     if let Some(ranges) = &parts.ranges {
         let slack = |low: f64, high: f64| SLACK * (high - low).max(low.abs()).max(high.abs());
         let ends: Vec<Vec<String>> = ranges
@@ -90,6 +96,8 @@ fn of_network(parts: &Parts, remembers: bool) -> Vec<(&'static str, String)> {
         ("@LOCALS", locals),
         ("@ASK", ask),
         ("@COMMIT", commit),
+        ("@STRAIGHT", if parts.straight.is_empty() { String::new() } else { STRAIGHT.into() }),
+        ("@PATH", if parts.straight.is_empty() { String::new() } else { " + path[o]".into() }),
         ("@CHANNELS", parts.channels.len().to_string()),
         ("@PADDED", padded(parts.network.outputs).to_string()),
         ("@MAX_GAP", double(gap)),
@@ -104,6 +112,15 @@ fn of_network(parts: &Parts, remembers: bool) -> Vec<(&'static str, String)> {
 
 const LOOK: &str =
     "        if (!(value >= RANGE[c][0] && value <= RANGE[c][1])) {\n            inside = 0;\n        }\n";
+
+const STRAIGHT: &str = "\
+        for (int o = 0; o < @OUTPUTS; ++o) {
+            path[o] = STRAIGHT[@CHANNELS][o];
+            for (int c = 0; c < @CHANNELS; ++c) {
+                path[o] += STRAIGHT[c][o] * (double)x[c];
+            }
+        }
+";
 
 const WINDOW: &str = "\
         kept = begins ? 0 : (s->kept < @W ? s->kept : @W - 1);
@@ -124,9 +141,10 @@ const KEEP: &str = "\
 
 /// Returns the lines that call the network, the lines that keep its state, and the declarations that they need.
 fn asking(parts: &Parts) -> (String, String, String) {
-    let locals = format!("    float h[{}];\n", state_size(parts));
+    let path = if parts.straight.is_empty() { "" } else { "    double path[@OUTPUTS];\n" };
+    let locals = format!("    float h[{}];\n{path}", state_size(parts));
     match parts.state {
-        _ if !has_state(parts) => ("        network(x, step, predicted);\n".into(), String::new(), String::new()),
+        _ if !has_state(parts) => ("        network(x, step, predicted);\n".into(), String::new(), path.into()),
         StateRule::Running => (
             "        if (begins) {\n            memset(h, 0, sizeof h);\n        } else {\n            \
              memcpy(h, s->hidden, sizeof h);\n        }\n        network(x, step, h, predicted);\n"

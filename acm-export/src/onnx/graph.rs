@@ -46,7 +46,8 @@ fn graph(parts: &Parts, name: &str) -> GraphProto {
     let mut graph = Graph::default();
     graph.scale(&parts.inputs);
     graph.ensemble(members, own);
-    graph.restore(&parts.targets);
+    graph.restore(&parts.targets, if parts.straight.is_empty() { "residual" } else { "refined" });
+    graph.straight(&parts.straight);
     let mut input = vec![value("channels", DOUBLE, parts.channels.len() as i64)];
     let mut output = vec![value("residual", DOUBLE, parts.tip.len() as i64)];
     if matches!(shape.body, Body::Cfc(_)) {
@@ -197,13 +198,25 @@ impl Graph {
         self.node("Cast", &["scaled"], &["z"], vec![integer("to", i64::from(FLOAT))]);
     }
 
+    /// Adds the straight path to `refined`, in double, where there is one.
+    fn straight(&mut self, weights: &[Vec<f64>]) {
+        let Some((constant, weights)) = weights.split_last() else { return };
+        let bytes = weights.iter().flatten().flat_map(|weight| weight.to_le_bytes()).collect();
+        self.constant("straight.weight", &[weights.len(), constant.len()], DOUBLE, bytes);
+        self.doubles("straight.constant", constant);
+        self.node("Cast", &["z"], &["straight.z"], vec![integer("to", i64::from(DOUBLE))]);
+        self.op("straight.sum", "MatMul", &["straight.z", "straight.weight"]);
+        self.op("straight", "Add", &["straight.sum", "straight.constant"]);
+        self.op("residual", "Add", &["refined", "straight"]);
+    }
+
     /// Adds the conversion to SI, in double.
-    fn restore(&mut self, scaler: &Scaler) {
+    fn restore(&mut self, scaler: &Scaler, output: &str) {
         self.doubles("residual.mean", &scaler.mean);
         self.doubles("residual.spread", &scaler.spread);
         self.node("Cast", &["standardised"], &["wide"], vec![integer("to", i64::from(DOUBLE))]);
         self.op("stretched", "Mul", &["wide", "residual.spread"]);
-        self.op("residual", "Add", &["stretched", "residual.mean"]);
+        self.op(output, "Add", &["stretched", "residual.mean"]);
     }
 
     fn scalar(&mut self, name: &str, value: f32) {

@@ -49,6 +49,9 @@ class Estimator(torch.nn.Module):
         for name in ("inputs", "targets"):
             for what, values in about[name].items():
                 self.register_buffer(f"{name}_{what}", torch.tensor(values, dtype=torch.float64), persistent=False)
+        none = [[0.0] * net["outputs"]] * (net["inputs"] + 1)
+        straight = torch.tensor(about["straight"] or none, dtype=torch.float64)
+        self.register_buffer("straight", straight, persistent=False)
         self.kind, self.layers, features = net["kind"], net.get("layers", 1), net.get("units")
         if self.kind == "cfc":
             from ncps.torch import CfCCell
@@ -87,7 +90,9 @@ class Estimator(torch.nn.Module):
             features = features.squeeze(0)
         else:
             features = self.layers(x)
-        return self.fc(features).double() * self.targets_spread + self.targets_mean, state
+        residual = self.fc(features).double() * self.targets_spread + self.targets_mean
+        # The straight path beside the network: a row for each channel, the last for the constant.
+        return residual + x.double() @ self.straight[:-1] + self.straight[-1], state
 
 
 class Ensemble(torch.nn.Module):

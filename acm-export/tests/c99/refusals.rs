@@ -61,6 +61,7 @@ fn a_network_that_corrects_the_actuators_is_refused_by_name() {
     let mut parts = parts(small(), Nominal::Model(hanging()), StateRule::Running);
     parts.tip = 0..1;
     parts.targets = acm_stream::Scaler { mean: vec![0.0], spread: vec![1e-2] };
+    parts.straight = vec![];
     parts.actuators = vec![0.1, 0.1];
     for export in [c99::export, acm_export::onnx::export, acm_export::torch::export] {
         let text = export(&parts, &crate::compile::origin()).expect_err("it is refused").to_string();

@@ -112,6 +112,7 @@ pub fn parts(body: Body, nominal: Nominal, state: StateRule) -> Parts {
         weights: weights(parameters),
         network,
         factor: 0.8,
+        straight: (0..6).map(|c| (0..3).map(|o| 0.004 * f64::from(c - 2 * o)).collect()).collect(),
         members: vec![],
         actuators: vec![],
         interval: None,

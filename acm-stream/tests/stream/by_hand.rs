@@ -28,6 +28,7 @@ fn several(channel: Channel, members: Vec<Vec<f32>>, factor: f64) -> Result<Esti
         weights: vec![1.0, 0.0],
         members,
         factor,
+        straight: vec![],
         max_gap: 0.5,
         first_elapsed: 0.1,
         state: StateRule::Running,
@@ -48,6 +49,18 @@ fn the_factor_scales_what_the_network_adds() {
     }
     for factor in [-0.1, 1.5, f64::NAN] {
         assert!(matches!(scaled(channel(), factor), Err(PartsError::Value { what: "the factor", .. })));
+    }
+}
+
+/// 100 + ¼ (4 (7 − 1)/2 + 10) + ½ (7 − 1)/2 + ⅛: the factor does not act on the straight path.
+#[test]
+fn a_straight_path_runs_beside_the_network() {
+    let network = scaled(Channel { source: Source::Context(0), rate: false }, 0.25).expect("parts that fit");
+    let with = |straight: &[Vec<f64>]| Estimator::new(Parts { straight: straight.to_vec(), ..network.parts().clone() });
+    let mut estimator = with(&[vec![0.5], vec![0.125]]).expect("parts that fit");
+    assert_eq!(estimator.step(&[3.0, 7.0, 100.0, 200.0], 0.0).expect("a sample"), [107.125]);
+    for wrong in [vec![vec![0.5]], vec![vec![0.5], vec![]], vec![vec![0.5], vec![f64::NAN]]] {
+        assert!(with(&wrong).is_err(), "{wrong:?}");
     }
 }
 

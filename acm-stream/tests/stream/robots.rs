@@ -99,6 +99,7 @@ pub fn parts(body: Body, state: StateRule) -> Parts {
         labels: None,
         actuators: vec![],
         factor: 1.0,
+        straight: vec![],
         max_gap: MAX_GAP,
         first_elapsed: FIRST,
         state,

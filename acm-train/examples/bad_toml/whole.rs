@@ -27,6 +27,7 @@ pub struct Whole {
 /// Files that together have every key that can be written.
 pub const ALL: &[Whole] = &[
     Whole { reader: Reader::Experiment, file: "experiment.toml", text: EXPERIMENT },
+    Whole { reader: Reader::Experiment, file: "carried.toml", text: CARRIED },
     Whole { reader: Reader::Experiment, file: "ridge.toml", text: RIDGE },
     Whole { reader: Reader::Experiment, file: "trees.toml", text: TREES },
     Whole { reader: Reader::List, file: "ablation.toml", text: ABLATION },
@@ -100,6 +101,24 @@ validation_fold = 0
 seeds = [1, 2, 3]
 folds = [["1", "4", "7"], ["2", "5", "8"]]
 held_out = ["10"]
+"#;
+
+const CARRIED: &str = r#"question = "What does a state gain that is carried through trials?"
+data = "data"
+[inputs]
+straight_path = true
+[memory]
+state = "trial"
+length = 200
+burn_in = 50
+[network]
+kind = "gru"
+units = 8
+layers = 1
+[training]
+epochs = 24
+epoch_steps = 50
+first_values = "lecun"
 "#;
 
 const RIDGE: &str = r#"question = "What does a line gain?"

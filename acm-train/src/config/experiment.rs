@@ -15,10 +15,10 @@
 use std::path::PathBuf;
 
 use acm_core::{axis::Axis, strain::StrainBasis};
-use acm_datasets::{DomainFilter, Role};
+use acm_datasets::{DomainFilter, Role, WindowSpec};
 use serde::{Deserialize, Serialize};
 
-use super::{baseline::Baseline, network::ExperimentNetwork, training::TrainingConfig};
+use super::{baseline::Baseline, memory::Memory, network::ExperimentNetwork, training::TrainingConfig};
 
 /// One question to one data set.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -35,6 +35,9 @@ pub struct Experiment {
     pub nominal: Nominal,
     /// Inputs of the network.
     pub inputs: Inputs,
+    /// How far back the network remembers.
+    #[serde(skip_serializing_if = "Memory::is_default")]
+    pub memory: Memory,
     /// Division of recordings into sequences.
     pub windows: Windows,
     /// The network, its sizes, and what it corrects.
@@ -56,6 +59,7 @@ impl Default for Experiment {
             device: "flex".into(),
             nominal: Nominal::default(),
             inputs: Inputs::default(),
+            memory: Memory::default(),
             windows: Windows::default(),
             network: ExperimentNetwork::default(),
             baseline: None,
@@ -91,7 +95,8 @@ pub struct Nominal {
     /// Basis of the bending strains along the arm.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub strain: Option<StrainBasis>,
-    /// Degree of the polynomial from actuators to strain amplitudes, or to the outputs for `polynomial`.
+    /// Degree of the polynomial from actuators to strain amplitudes, or to the outputs for `polynomial`. Left out: the manifest's, or
+    /// for `polynomial` what predicts blocks of time left out ([`acm_core::degree`]).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub degree: Option<usize>,
     /// Integration steps along the arm.
@@ -157,6 +162,9 @@ pub struct Inputs {
     /// of the error is their contribution.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub shuffled: Vec<String>,
+    /// Whether a straight path from the channels to the residual runs beside the network, where it predicts better than a constant.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub straight_path: bool,
 }
 
 impl Default for Inputs {
@@ -168,6 +176,7 @@ impl Default for Inputs {
             domain_filter: DomainFilter::Hull,
             learn_from: vec![Role::Development],
             shuffled: vec![],
+            straight_path: false,
         }
     }
 }
@@ -296,6 +305,22 @@ impl Experiment {
     /// Returns the largest number of rows of a record: epochs of a network, or their counterpart of a baseline.
     pub fn rows(&self) -> usize {
         self.baseline.as_ref().map_or(self.training.epochs, Baseline::rows)
+    }
+
+    /// Returns whether final runs learn from all trials, with the epoch and the factor that cross-validation chose.
+    pub fn refits(&self) -> bool {
+        self.memory.is_trial()
+            && self.protocol.cross_validation
+            && self.protocol.validation_fold.is_none()
+            && self.baseline.is_none()
+    }
+
+    /// Returns the targets of a part: every `stride`-th sample that the longest window reaches, or, with a carried state, of all.
+    pub fn targets(&self, stride: usize) -> WindowSpec {
+        match self.memory.is_trial() {
+            true => WindowSpec { length: 1, reach: 1, stride },
+            false => WindowSpec { length: self.windows.length, reach: self.windows.reach, stride },
+        }
     }
 
     /// Returns the name of the learner in files and tables: the network's kind (`mlp`, `gru`, `cfc`), or that of the

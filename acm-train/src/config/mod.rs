@@ -3,6 +3,7 @@
 mod baseline;
 mod error;
 mod experiment;
+mod memory;
 mod network;
 mod parse;
 mod question;
@@ -17,6 +18,7 @@ pub use acm_models::{DeviceError, device};
 pub use baseline::{Baseline, RidgeConfig, TreesConfig};
 pub use error::ConfigError;
 pub use experiment::{Elapsed, Experiment, Inputs, Nominal, NominalKind, Protocol, Target, Windows};
+pub use memory::{Memory, State};
 pub use network::{Corrected, ExperimentNetwork};
 pub use parse::complaint::Complaint;
 pub use parse::decode::decode;

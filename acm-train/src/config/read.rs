@@ -8,6 +8,7 @@ use toml::{Table, Value};
 
 use super::error::ConfigError;
 use super::experiment::Experiment;
+use super::memory::name_the_default_memory;
 use super::parse::decode::decode;
 use super::parse::source::Source;
 use super::validate::faults;
@@ -27,6 +28,7 @@ pub fn read(file: &Path, edits: &[String]) -> Result<(Experiment, Source), Confi
 /// As [`read`].
 pub fn of_source(source: &mut Source) -> Result<Experiment, ConfigError> {
     name_the_default_network(&mut source.tree);
+    name_the_default_memory(&mut source.tree);
     let experiment = decode(source, "acm-train --help")?;
     source.refuse_first(faults(&experiment))?;
     Ok(experiment)

@@ -17,6 +17,7 @@ pub(super) mod optimizer;
 pub(super) mod output_layer;
 pub(super) mod schedule;
 
+use acm_models::FirstRule;
 use serde::{Deserialize, Serialize};
 
 use super::parse::fault::TrainingFault;
@@ -28,7 +29,10 @@ use schedule::Schedule;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct TrainingConfig {
-    /// Largest number of epochs; each uses every training window once.
+    /// Optimizer steps of an epoch. Left out: as many as use every training window once.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub epoch_steps: Option<usize>,
+    /// Largest number of epochs; the validation part is evaluated after each.
     pub epochs: usize,
     /// Number of windows in a batch; the last of an epoch may have fewer.
     pub batch: usize,
@@ -59,6 +63,9 @@ pub struct TrainingConfig {
     /// Output layer of epoch 0. Left out: `zero` where a nominal model predicts, `random` elsewhere.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub output_layer: Option<OutputLayer>,
+    /// Rule for the first values of the network ([`FirstRule`]).
+    #[serde(skip_serializing_if = "is_default")]
+    pub first_values: FirstRule,
     /// The file that the network came from, where it was trained elsewhere: filled in by `acm-eval import`, so that nothing
     /// is trained in its place.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -78,6 +85,7 @@ pub struct Imported {
 impl Default for TrainingConfig {
     fn default() -> Self {
         Self {
+            epoch_steps: None,
             epochs: 60,
             batch: 64,
             learning_rate: 1e-3,
@@ -90,6 +98,7 @@ impl Default for TrainingConfig {
             patience: 10,
             ensemble: None,
             output_layer: None,
+            first_values: FirstRule::Torch,
             imported: None,
         }
     }
@@ -100,6 +109,11 @@ impl TrainingConfig {
     /// imported, and initial values without the nominal model.
     pub fn of_imported(imported: Imported) -> Self {
         Self { epochs: 1, output_layer: Some(OutputLayer::Random), imported: Some(imported), ..Self::default() }
+    }
+
+    /// Returns the number of examples that an epoch uses, of `all`.
+    pub fn drawn(&self, all: usize) -> usize {
+        self.epoch_steps.map_or(all, |steps| self.batch * steps)
     }
 
     /// Returns the number of networks in an ensemble; 1 for a network by itself.
@@ -120,9 +134,11 @@ impl TrainingConfig {
         let decay = self.weight_decay.unwrap_or(0.0);
         let clip = self.clip_norm.unwrap_or(1.0);
         let dropout = self.dropout.unwrap_or(0.0);
+        let epoch_steps = self.epoch_steps.unwrap_or(1);
         let count = |n: usize| (1..=1_000_000).contains(&n);
         let checks = [
             ("epochs", self.epochs.to_string(), count(self.epochs), "write 1 to 1000000, for example 60"),
+            ("epoch_steps", epoch_steps.to_string(), count(epoch_steps), "write 1 to 1000000, for example 50"),
             ("batch", self.batch.to_string(), count(self.batch), "write 1 to 1000000, for example 64"),
             (
                 "learning_rate",
@@ -162,6 +178,10 @@ impl TrainingConfig {
             None => self.schedule.validate(),
         }
     }
+}
+
+fn is_default(rule: &FirstRule) -> bool {
+    *rule == FirstRule::default()
 }
 
 #[cfg(test)]

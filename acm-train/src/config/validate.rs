@@ -25,6 +25,7 @@ pub fn faults(experiment: &Experiment) -> Vec<Fault> {
     [
         data(experiment),
         device(experiment),
+        memory(experiment),
         windows(experiment),
         network(experiment),
         baseline(experiment),
@@ -101,6 +102,10 @@ fn device(experiment: &Experiment) -> Vec<Fault> {
 fn training(experiment: &Experiment) -> Vec<Fault> {
     let fault = |f: TrainingFault| Fault::new(&format!("training.{}", f.field), format!("is {}", f.value), f.remedy);
     experiment.training.validate().err().map(fault).into_iter().collect()
+}
+
+fn memory(experiment: &Experiment) -> Vec<Fault> {
+    if experiment.memory.is_trial() { experiment.memory.faults() } else { vec![] }
 }
 
 fn windows(experiment: &Experiment) -> Vec<Fault> {

@@ -54,8 +54,8 @@ pub struct Identity {
 }
 
 impl Identity {
-    /// Returns the identity of a task on these windows.
-    pub fn new(task: &Task, training: &impl Examples, validation: &impl Examples) -> Self {
+    /// Returns the identity of a task on these windows; without a validation part, of a fit to all trials.
+    pub fn new(task: &Task, training: &dyn Examples, validation: Option<&dyn Examples>) -> Self {
         let supervise = match task.supervise {
             Keep::Last => "last",
             Keep::Every => "every",
@@ -69,7 +69,7 @@ impl Identity {
             supervise: supervise.into(),
             seed: task.seed,
             training_windows: training.fingerprint(),
-            validation_windows: validation.fingerprint(),
+            validation_windows: validation.map_or_else(|| "none".into(), Examples::fingerprint),
         }
     }
 

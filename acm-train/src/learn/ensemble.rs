@@ -19,10 +19,9 @@ use nalgebra::DMatrix;
 
 use super::error::LearnError;
 use super::examples::Examples;
-use super::examples::windows::WindowSet;
 use super::fit::epoch::Epoch;
 use super::fit::task::{Control, Ended, Fitted, Task};
-use super::fit::{evaluate, fit};
+use super::fit::{evaluate, fit, refit};
 use super::projection::Projection;
 
 /// Returns the seed of a member; no two members of two seeds below 2³² share one.
@@ -44,10 +43,10 @@ pub fn checkpoint(of_run: &Path, member: usize) -> PathBuf {
 ///
 /// # Errors
 /// As [`fit`].
-pub fn fit_members<E: Examples>(
+pub fn fit_members(
     task: &Task,
-    training: &E,
-    validation: &E,
+    training: &dyn Examples,
+    validation: &dyn Examples,
     of_run: &Path,
     observer: &mut dyn FnMut(&Epoch) -> Control,
 ) -> Result<Vec<Fitted>, LearnError> {
@@ -56,6 +55,28 @@ pub fn fit_members<E: Examples>(
         let task = Task { seed: seed(task.seed, member), ..task.clone() };
         let path = checkpoint(of_run, member);
         all.push(fit(&task, training, validation, Some(&path), observer)?);
+        if ended(&all) == Ended::Asked {
+            break;
+        }
+    }
+    Ok(all)
+}
+
+/// Fits all members of a task to all trials ([`refit`]), one after the other.
+///
+/// # Errors
+/// As [`fit`].
+pub fn refit_members(
+    task: &Task,
+    training: &dyn Examples,
+    epochs: usize,
+    of_run: &Path,
+    observer: &mut dyn FnMut(&Epoch) -> Control,
+) -> Result<Vec<Fitted>, LearnError> {
+    let mut all: Vec<Fitted> = vec![];
+    for member in 0..task.training.members() {
+        let task = Task { seed: seed(task.seed, member), ..task.clone() };
+        all.push(refit(&task, training, epochs, &checkpoint(of_run, member), observer)?);
         if ended(&all) == Ended::Asked {
             break;
         }
@@ -80,7 +101,7 @@ pub fn mean(predictions: impl IntoIterator<Item = DMatrix<f64>>) -> DMatrix<f64>
 }
 
 /// Returns the shrinkage factor of the mean: that of the projection on it, or of a single member its own.
-pub fn factor(members: &[Fitted], validation: &WindowSet) -> f64 {
+pub fn factor(members: &[Fitted], validation: &dyn Examples) -> f64 {
     match members {
         [one] => one.factor,
         all if all.iter().any(|member| member.zero.is_none()) => 1.0,
@@ -90,23 +111,23 @@ pub fn factor(members: &[Fitted], validation: &WindowSet) -> f64 {
 }
 
 /// Returns the projection of the residual on the mean of the networks.
-fn projection<'n>(networks: impl Iterator<Item = &'n Network>, windows: &WindowSet) -> Projection {
-    let (mut sums, mut targets, mut count) = (vec![0.0; windows.len() * windows.outputs()], vec![], 0.0);
+fn projection<'n>(networks: impl Iterator<Item = &'n Network>, examples: &dyn Examples) -> Projection {
+    let (mut sums, mut targets, mut count) = (vec![], vec![], 0.0);
     for network in networks {
         let mut place = 0;
         targets.clear();
-        evaluate::walk(&mut Engine::new(network), &network.values(), windows, |predictions, batch| {
-            let own = &mut sums[place..place + predictions.len()];
-            own.iter_mut().zip(predictions).for_each(|(sum, p)| *sum += f64::from(*p));
+        evaluate::walk(&mut Engine::new(network), &network.values(), examples, |predictions, batch| {
+            let [predictions, own] = batch.scored(predictions);
+            targets.extend_from_slice(&own);
+            sums.resize(targets.len().max(sums.len()), 0.0);
+            sums[place..].iter_mut().zip(predictions.iter()).for_each(|(sum, p)| *sum += f64::from(*p));
             place += predictions.len();
-            targets.extend_from_slice(&batch.targets);
         });
         count += 1.0;
     }
     let means: Vec<f32> = sums.iter().map(|sum| (sum / count) as f32).collect();
-    windows
-        .residual()
-        .map_or(Projection::default(), |scaler| Projection::of(scaler, &means, &targets).over(windows.len()))
+    let rows = targets.len() / examples.outputs();
+    examples.residual().map_or(Projection::default(), |scaler| Projection::of(scaler, &means, &targets).over(rows))
 }
 
 /// Returns the projections of a member, as one of them has them in the mean; epochs after its last are as the last.

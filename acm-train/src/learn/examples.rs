@@ -1,17 +1,25 @@
 //! Training examples, gathered into batches.
 //!
-//! Examples are windows of series or whole sequences ([`sequences`]); [`order`] shuffles them for each epoch.
+//! Examples are windows of series, longer runs of their samples ([`spans`]) or whole sequences ([`sequences`]); [`order`] shuffles
+//! them for each epoch.
 
 pub mod batch;
 pub(super) mod learned;
 pub mod order;
 pub mod sequences;
+pub mod single;
+pub mod spans;
 pub(super) mod windows;
+
+use std::ops::Range;
 
 use acm_datasets::Standardizer;
 use acm_models::Keep;
 
 use batch::Batch;
+
+/// Number of windows predicted at a time: more would not be faster, and memory stays small.
+const BATCH: usize = 1024;
 
 /// Examples of one part of the data, standardised.
 pub trait Examples {
@@ -40,9 +48,19 @@ pub trait Examples {
         shuffled
     }
 
+    /// Returns the examples that are predicted together, in order.
+    fn batches(&self) -> Vec<Range<usize>> {
+        (0..self.len()).step_by(BATCH).map(|first| first..self.len().min(first + BATCH)).collect()
+    }
+
     /// Replaces the contents of `batch` by the examples `chosen`. Examples that define themselves which of their steps
     /// count ignore `supervise`.
     fn gather(&self, chosen: &[usize], supervise: Keep, batch: &mut Batch);
+
+    /// Returns whether the state is carried over all samples of a trial.
+    fn carry_state(&self) -> bool {
+        false
+    }
 
     /// Returns the scaler of the targets, where these are the residual of a nominal model.
     fn residual(&self) -> Option<&Standardizer> {

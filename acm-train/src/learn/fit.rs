@@ -9,6 +9,7 @@ pub(super) mod epoch;
 pub mod evaluate;
 pub(super) mod not_finite;
 pub mod progress;
+mod refit;
 mod start;
 pub(super) mod task;
 
@@ -27,6 +28,7 @@ use acm_models::optimizer::clip::clip;
 use epoch::Epoch;
 use not_finite::NotFinite;
 use progress::Progress;
+pub use refit::refit;
 use task::{Control, Ended, Fitted, Task};
 
 /// Fits a network to the training windows, choosing the epoch on the validation windows.
@@ -40,16 +42,16 @@ use task::{Control, Ended, Fitted, Task};
 ///
 /// # Panics
 /// If the task was not validated.
-pub fn fit<E: Examples>(
+pub fn fit(
     task: &Task,
-    training: &E,
-    validation: &E,
+    training: &dyn Examples,
+    validation: &dyn Examples,
     checkpoint: Option<&Path>,
     observer: &mut dyn FnMut(&Epoch) -> Control,
 ) -> Result<Fitted, LearnError> {
     refuse_empty(training, validation)?;
-    let network = Network::new(task.network, training.channels(), training.said(), task.seed, task.device);
-    let identity = Identity::new(task, training, validation);
+    let network = task.network(training);
+    let identity = Identity::new(task, training, Some(validation));
     let mut progress = resume(checkpoint, &identity, &network)?;
     refuse_to_train_imported(task, &progress)?;
     let mut desk = Desk::new(&network, task.training);
@@ -91,7 +93,7 @@ impl Desk {
     }
 }
 
-fn refuse_empty(training: &impl Examples, validation: &impl Examples) -> Result<(), LearnError> {
+fn refuse_empty(training: &dyn Examples, validation: &dyn Examples) -> Result<(), LearnError> {
     match (training.is_empty(), validation.is_empty()) {
         (true, _) => Err(LearnError::NoWindows { part: "training" }),
         (_, true) => Err(LearnError::NoWindows { part: "validation" }),
@@ -114,11 +116,26 @@ fn resume(checkpoint: Option<&Path>, identity: &Identity, network: &Network) -> 
 /// Makes one pass over the training windows and evaluates the validation windows.
 fn epoch(
     task: &Task,
-    training: &impl Examples,
-    validation: &impl Examples,
+    training: &dyn Examples,
+    validation: &dyn Examples,
     desk: &mut Desk,
     progress: &mut Progress,
 ) -> Result<Epoch, LearnError> {
+    let (number, learning_rate) = (progress.epochs.len() + 1, schedule::rate(task.training, &progress.epochs));
+    let train_loss = pass(task, training, desk, progress)?;
+    let (validation_loss, projection) = evaluate::validate(&mut desk.engine, &progress.weights, validation);
+    if !validation_loss.is_finite() {
+        let all: Vec<usize> = (0..validation.len()).collect();
+        let found = NotFinite::of(&mut desk.engine, &progress.weights, validation, &all, Keep::Last);
+        let found = NotFinite { epoch: number, what: "validation loss", batch: None, learning_rate, ..found };
+        return Err(LearnError::NotFinite(Box::new(found)));
+    }
+    progress.projections.extend(projection.filter(|_| progress.zero.is_some()));
+    Ok(Epoch { epoch: number, learning_rate, train_loss, validation_loss })
+}
+
+/// Makes one pass over the training windows, and returns their mean loss as they were met.
+fn pass(task: &Task, training: &dyn Examples, desk: &mut Desk, progress: &mut Progress) -> Result<f64, LearnError> {
     let Desk { engine, batch, gradient, dropout } = desk;
     let number = progress.epochs.len() + 1;
     if let Some(dropout) = dropout {
@@ -129,7 +146,8 @@ fn epoch(
         LearnError::NotFinite(Box::new(NotFinite { epoch: number, what, batch, learning_rate, ..found }))
     };
     let mut sum = 0.0;
-    let order = training.arrange(order::order(training.len(), task.seed, number), task.training.batch);
+    let order = order::draw(training.len(), task.training.drawn(training.len()), task.seed, number);
+    let order = training.arrange(order, task.training.batch);
     let batches = order.len().div_ceil(task.training.batch);
     for (done, chosen) in order.chunks(task.training.batch).enumerate() {
         training.gather(chosen, task.supervise, batch);
@@ -145,14 +163,7 @@ fn epoch(
         }
         sum += value * chosen.len() as f64;
     }
-    let (validation_loss, projection) = evaluate::validate(engine, &progress.weights, validation);
-    if !validation_loss.is_finite() {
-        let all: Vec<usize> = (0..validation.len()).collect();
-        let found = NotFinite::of(engine, &progress.weights, validation, &all, Keep::Last);
-        return Err(refuse("validation loss", None, found));
-    }
-    progress.projections.extend(projection.filter(|_| progress.zero.is_some()));
-    Ok(Epoch { epoch: number, learning_rate, train_loss: sum / training.len() as f64, validation_loss })
+    Ok(sum / order.len() as f64)
 }
 
 /// Takes one step of the optimizer; `None` if the gradient is not finite.
@@ -169,7 +180,7 @@ fn descend(config: &TrainingConfig, rate: f64, gradient: &mut [f32], progress: &
 /// Restores the best weights, and checks their validation loss.
 fn restore(
     mut network: Network,
-    validation: &impl Examples,
+    validation: &dyn Examples,
     desk: &mut Desk,
     progress: Progress,
     ended: Ended,

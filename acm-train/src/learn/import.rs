@@ -260,6 +260,7 @@ mod tests {
             inputs: of([0.3 * sign, -1.0], [0.5, 2.0 + sign]),
             targets: of([0.01 * sign, 0.02], [0.1, 0.3 + 0.1 * sign]),
             actuators: vec![],
+            straight: None,
         }
     }
 

@@ -23,11 +23,13 @@ pub mod import;
 pub mod loss;
 pub mod optimizer;
 mod projection;
+pub mod straight;
 
 pub use error::LearnError;
 pub use examples::Examples;
 pub use examples::learned::Learned;
 pub use examples::sequences::SequenceExamples;
+pub use examples::spans::Spans;
 pub use examples::windows::{Scalers, WindowSet};
 pub use fit::epoch::Epoch;
 pub use fit::evaluate::predict;

@@ -51,7 +51,12 @@ impl Projection {
 
     /// Returns the shrinkage factor λ.
     pub fn factor(&self) -> f64 {
-        if self.square > 0.0 { (self.along / self.square).clamp(0.0, 1.0) } else { 0.0 }
+        self.ratio().clamp(0.0, 1.0)
+    }
+
+    /// Returns ⟨r, c⟩ / ⟨c, c⟩, 0 where nothing is corrected.
+    pub fn ratio(&self) -> f64 {
+        if self.square > 0.0 { self.along / self.square } else { 0.0 }
     }
 
     /// Returns the mean squared distance that is left with a factor, SI².

@@ -4,6 +4,7 @@
 //! Both give the same trials in the same order, so that what is computed from them has the same bits. [`prepare`] lists the
 //! targets, [`scored`] holds a part of a split, [`range`] checks the inputs, [`shuffle`] permutes them.
 
+pub mod examples;
 pub mod prepare;
 pub mod range;
 pub mod scored;
@@ -55,15 +56,26 @@ pub struct Data {
 #[derive(Debug, Clone)]
 struct Piece {
     trial: usize,
-    /// Name and samples.
-    block: Option<(String, Range<usize>)>,
+    block: Option<Block>,
+}
+
+/// Part of a trial.
+#[derive(Debug, Clone)]
+struct Block {
+    name: String,
+    rows: Range<usize>,
+    /// Whether the inputs before it are part of it.
+    has_past: bool,
 }
 
 impl Piece {
     /// Returns the piece of a trial; dropped samples are counted with the first piece.
     fn of<'t>(&self, trial: Cow<'t, Trial>) -> Cow<'t, Trial> {
-        let Some((name, rows)) = &self.block else { return trial };
-        let mut block = trial.select(&rows.clone().collect::<Vec<_>>());
+        let Some(Block { name, rows, has_past }) = &self.block else { return trial };
+        let mut block = match has_past {
+            true => trial.select_with_past(rows.clone()),
+            false => trial.select(&rows.clone().collect::<Vec<_>>()),
+        };
         block.name.clone_from(name);
         if rows.start > 0 {
             block.dropped.clear();
@@ -155,11 +167,11 @@ impl Data {
     }
 
     /// Cuts the trials of these names into blocks of time, `count` of about as many samples each, which are trials from then on
-    /// ([`acm_datasets::folds::block`]).
+    /// ([`acm_datasets::folds::block`]). Where they `have_past`, each includes the inputs before it.
     ///
     /// # Errors
     /// A trial that cannot be read.
-    pub fn cut(&mut self, names: &[String], count: usize, max_gap: f64) -> Result<(), DataError> {
+    pub fn cut(&mut self, names: &[String], count: usize, max_gap: f64, have_past: bool) -> Result<(), DataError> {
         let (mut entries, mut pieces) = (vec![], vec![]);
         for (index, entry) in self.entries.iter().enumerate() {
             if !names.contains(&entry.name) {
@@ -171,7 +183,8 @@ impl Data {
                 let trial = trial?;
                 for number in 0..count {
                     let rows = number * trial.samples() / count..(number + 1) * trial.samples() / count;
-                    let piece = Piece { trial: index, block: Some((folds::block(&trial.name, number), rows)) };
+                    let block = Block { name: folds::block(&trial.name, number), rows, has_past: have_past };
+                    let piece = Piece { trial: index, block: Some(block) };
                     entries.push(Entry::of(&piece.of(Cow::Borrowed(&trial)), Some(max_gap)));
                     pieces.push(piece);
                 }

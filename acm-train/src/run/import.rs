@@ -11,7 +11,7 @@ use crate::learn::checkpoint::{self, Identity};
 use crate::learn::fit::evaluate;
 use crate::learn::fit::progress::Progress;
 use crate::learn::import::{ImportError, Tensor, rescale, row};
-use crate::learn::{Epoch, LearnError, Scalers, Task, WindowSet};
+use crate::learn::{Epoch, Examples, LearnError, Scalers, Task};
 use crate::store::RunFolder;
 
 /// An imported network.
@@ -43,16 +43,17 @@ impl Arrival {
         let run = Run::new(setting, plan)?;
         let device = device(&setting.experiment.device)?;
         let task = run.task(&device);
-        let (training, validation) = (run.training.window_set(&run.scalers)?, run.validation.window_set(&run.scalers)?);
-        let network = Network::new(task.network, training.channels(), training.outputs(), task.seed, task.device);
-        let weights = weights(foreign, &task, &training, &run.scalers)
+        let training = run.training.training_examples(&run.scalers)?;
+        let validation = run.validation.scored_examples(&run.scalers)?;
+        let network = task.network(&*training);
+        let weights = weights(foreign, &task, &*training, &run.scalers)
             .map_err(|error| LearnError::Import { file: foreign.file.clone(), error })?;
         let mut engine = Engine::new(&network);
-        let mut loss = |windows: &WindowSet| evaluate::loss(&mut engine, &weights, windows);
-        let (train_loss, validation_loss) = (loss(&training), loss(&validation));
+        let mut loss = |examples: &dyn Examples| evaluate::loss(&mut engine, &weights, examples);
+        let (train_loss, validation_loss) = (loss(&*training), loss(&*validation));
         let mut progress = Progress::new(weights);
         progress.note(Epoch { epoch: 1, learning_rate: 0.0, train_loss, validation_loss });
-        let identity = Identity::new(&task, &training, &validation);
+        let identity = Identity::new(&task, &*training, Some(&*validation));
         Ok(Self { id: plan.id.clone(), identity, network, progress })
     }
 
@@ -66,7 +67,12 @@ impl Arrival {
 }
 
 /// Returns the network's weights for the scalers of this run.
-fn weights(foreign: &Foreign, task: &Task, training: &WindowSet, scalers: &Scalers) -> Result<Vec<f32>, ImportError> {
+fn weights(
+    foreign: &Foreign,
+    task: &Task,
+    training: &dyn Examples,
+    scalers: &Scalers,
+) -> Result<Vec<f32>, ImportError> {
     let shape = task.network.shape(training.channels(), training.outputs());
     let mut weights = row(&shape, &foreign.tensors)?;
     if let Some(from) = &foreign.scalers {

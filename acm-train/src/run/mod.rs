@@ -13,5 +13,6 @@ pub mod sequences;
 pub mod setting;
 pub mod stop;
 pub mod train;
+pub mod trained;
 
 pub use error::RunError;

@@ -14,6 +14,7 @@ pub mod poses;
 
 use std::collections::BTreeMap;
 
+use acm_core::degree::degree;
 use acm_core::observations::Observations;
 use acm_core::{ArmSpec, Calibration, NominalModel, NominalSpec, calibrate};
 use acm_datasets::{Manifest, Role, Trial};
@@ -34,6 +35,8 @@ pub struct Choice {
     source: NominalSource,
     /// Model to be calibrated; `None` where the prediction comes with the data or a saved model.
     spec: Option<NominalSpec>,
+    /// Whether the degree of a polynomial is chosen on the data ([`degree`]).
+    chooses_degree: bool,
     /// Arm within a saved model.
     saved_arm: Option<NominalModel>,
     comparator: NominalSpec,
@@ -55,11 +58,18 @@ pub fn choose(nominal: &Nominal, source: &Source, manifest: &Manifest) -> Result
     if let Some(named) = &nominal.augmented {
         let saved = find_file(named, source.path()).map(|file| augmented::read(&file)).transpose()?;
         let saved_arm = saved.map(|model| model.nominal().clone()).filter(NominalModel::is_arm);
-        return Ok(Choice { source: NominalSource::Augmented, spec: None, saved_arm, comparator });
+        return Ok(Choice {
+            source: NominalSource::Augmented,
+            spec: None,
+            chooses_degree: false,
+            saved_arm,
+            comparator,
+        });
     }
     let kind = kind(nominal, manifest);
     let spec = spec(kind, nominal, source, manifest)?;
-    Ok(Choice { source: origin(kind, manifest), spec, saved_arm: None, comparator })
+    let chooses_degree = kind == NominalKind::Polynomial && nominal.degree.is_none();
+    Ok(Choice { source: origin(kind, manifest), spec, chooses_degree, saved_arm: None, comparator })
 }
 
 /// Computes every calibration that the plans need.
@@ -71,7 +81,11 @@ pub fn calibrations(choice: &Choice, data: &Data, plans: &[Plan], stamp: DataSta
         plans.iter().map(|plan| (group(&data.manifest, plan), trials_of(data, plan))).collect();
     let pair = |trials: Vec<String>| -> Result<CalibrationPair, RunError> {
         let observed = data.observations(&trials)?;
-        let nominal = choice.spec.as_ref().map(|spec| fit(spec, &observed, &trials)).transpose()?;
+        let spec = choice.spec.clone().map(|spec| match choice.chooses_degree {
+            true => NominalSpec::Polynomial { degree: degree(&observed) },
+            false => spec,
+        });
+        let nominal = spec.map(|spec| fit(&spec, &observed, &trials)).transpose()?;
         let polynomial = fit(&choice.comparator, &observed, &trials)?;
         Ok(CalibrationPair { nominal, saved_arm: choice.saved_arm.clone(), polynomial, trials })
     };
@@ -80,9 +94,13 @@ pub fn calibrations(choice: &Choice, data: &Data, plans: &[Plan], stamp: DataSta
     Ok(NominalRecord { format: FORMAT, data: stamp, source: choice.source, calibrations, runs: vec![] })
 }
 
-/// Returns the group of calibrations that a plan uses: `calibration`, or its fold's own.
+/// Returns the group of calibrations that a plan uses: `calibration`, or its fold's own, or that of `all` trials.
 pub fn group(manifest: &Manifest, plan: &Plan) -> String {
-    if manifest.calibrates() { "calibration".into() } else { format!("fold{}", plan.folds.fold) }
+    match () {
+        () if manifest.calibrates() => "calibration".into(),
+        () if plan.follows_folds() => "all".into(),
+        () => format!("fold{}", plan.folds.fold),
+    }
 }
 
 /// Returns the nominal prediction and comparator of a trial, [T×M] each.

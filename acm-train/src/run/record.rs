@@ -219,6 +219,13 @@ pub struct Split {
     pub held_out: Vec<String>,
 }
 
+impl Split {
+    /// Returns whether all trials are learned from, with the choices of the folds.
+    pub fn has_no_validation(&self) -> bool {
+        self.validation.is_empty()
+    }
+}
+
 /// Description of the folds, and of the one that chose the epoch.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FoldStamp {
@@ -234,7 +241,7 @@ pub struct FoldStamp {
 }
 
 /// Errors of each estimator on one part of the data.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct PartScores {
     /// Scores over all trials together, by estimator: `nominal`, `polynomial`, and the network by its kind.
     pub estimators: BTreeMap<String, Score>,

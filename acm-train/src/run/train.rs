@@ -17,17 +17,17 @@ use super::evaluation::score::{Tally, TrialPrediction};
 use super::evaluation::summary;
 use super::names;
 use super::nominal::group;
-use super::plan::Plan;
+use super::plan::{Chosen, Plan};
 use super::progress::{Progress, RunProgress};
 use super::record::predictions::groups;
 use super::record::versions::versions;
-use super::record::{FORMAT, Member, RunRecord, WindowCounts};
+use super::record::{FORMAT, Member, PartScores, RunRecord, WindowCounts, read_records};
 use super::setting::Setting;
 use super::stop::Stop;
 use crate::{
     config::{Target, device},
     learn::{
-        self, Control, Ended, Epoch, LearnError, Projection, Scalers, Task, WindowSet,
+        self, Control, Ended, Epoch, LearnError, Projection, Scalers, Task,
         baseline::{self, Lagged},
         ensemble,
     },
@@ -105,9 +105,15 @@ impl<'a> Run<'a> {
     pub(super) fn new(setting: &'a Setting<'a>, plan: &'a Plan) -> Result<Self, RunError> {
         let asked = &setting.experiment.windows;
         let pair = &setting.nominal.calibrations[&group(&setting.data.manifest, plan)];
-        let training = Scored::new(setting, pair, &plan.split.training, asked.stride)?;
+        let stride = if setting.experiment.memory.is_trial() { 1 } else { asked.stride };
+        let training = Scored::new(setting, pair, &plan.split.training, stride)?;
+        let mut scalers = Scalers::of_each(|see| training.each(see))?;
+        if setting.experiment.inputs.straight_path && setting.experiment.baseline.is_none() {
+            let levels: Vec<bool> = setting.channels.iter().map(|channel| !channel.is_rate()).collect();
+            scalers = scalers.with_straight(&levels, |see| training.each(see))?;
+        }
         Ok(Self {
-            scalers: Scalers::of_each(|see| training.each(see))?,
+            scalers,
             training,
             validation: Scored::new(setting, pair, &plan.split.validation, asked.evaluation_stride)?,
             held_out: Scored::new(setting, pair, &plan.split.held_out, asked.evaluation_stride)?,
@@ -134,11 +140,18 @@ impl<'a> Run<'a> {
         let device = device(&self.setting.experiment.device)?;
         let task = self.task(&device);
         let checkpoint = folder.checkpoint(&self.plan.id);
-        let training = self.training.window_set(&self.scalers)?;
-        let validation = self.validation.window_set(&self.scalers)?;
-        let fitted = ensemble::fit_members(&task, &training, &validation, &checkpoint, observer);
+        let training = self.training.training_examples(&self.scalers)?;
+        if self.plan.follows_folds() {
+            let chosen = Chosen::of(&read_records(folder.root())?);
+            let fitted = ensemble::refit_members(&task, &*training, chosen.epochs, &checkpoint, observer);
+            let fitted = fitted.map_err(|error| error.in_run(&self.plan.id))?;
+            return Ok(Learned::of(fitted, self.plan.seed, chosen.factor));
+        }
+        let validation = self.validation.scored_examples(&self.scalers)?;
+        let fitted = ensemble::fit_members(&task, &*training, &*validation, &checkpoint, observer);
         let fitted = fitted.map_err(|error| error.in_run(&self.plan.id))?;
-        Ok(Learned::of(fitted, self.plan.seed, &validation))
+        let factor = ensemble::factor(&fitted, &*validation);
+        Ok(Learned::of(fitted, self.plan.seed, factor))
     }
 
     /// Returns the fit on a device.
@@ -217,7 +230,7 @@ impl<'a> Run<'a> {
             factor: learned.factor,
             members: learned.members,
             seconds: start.elapsed().as_secs_f64(),
-            validation: validation.scores(),
+            validation: if validation.is_empty() { PartScores::default() } else { validation.scores() },
             held_out: (!held_out.is_empty()).then(|| held_out.scores()),
             predictions: format!("predictions/{}.parquet", plan.id).into(),
             predictions_sha256: hashed::of_file(&path)?,
@@ -233,8 +246,13 @@ impl<'a> Run<'a> {
         let residual = match &learned.model {
             _ if part.windows().is_empty() => DMatrix::zeros(0, self.scalers.targets.mean.len()),
             Model::Networks(networks) => {
-                let windows = part.window_set(&self.scalers)?;
-                learned.factor * ensemble::mean(networks.iter().map(|network| learn::predict(network, &windows)))
+                let examples = part.scored_examples(&self.scalers)?;
+                let networks = networks.iter().map(|network| learn::predict(network, &*examples));
+                let refined = learned.factor * ensemble::mean(networks);
+                match &self.scalers.straight {
+                    None => refined,
+                    Some(path) => refined + part.at_targets(|series| path.along(&self.scalers.inputs, series))?,
+                }
             }
             Model::Baseline(model) => self.scalers.targets.restore(&model.predict(&self.lagged(part))),
         };
@@ -244,8 +262,8 @@ impl<'a> Run<'a> {
 
 impl Learned {
     /// Returns the result of an ensemble or of a single network.
-    fn of(fitted: Vec<learn::Fitted>, seed: u64, validation: &WindowSet) -> Self {
-        let (ended, factor) = (ensemble::ended(&fitted), ensemble::factor(&fitted, validation));
+    fn of(fitted: Vec<learn::Fitted>, seed: u64, factor: f64) -> Self {
+        let ended = ensemble::ended(&fitted);
         let projections = ensemble::mean_projections(&fitted);
         let mut members: Vec<Member> = fitted
             .iter()
@@ -315,9 +333,9 @@ fn outcome(record: &RunRecord) -> String {
 
 /// Returns the text on the shrinkage of the network's correction.
 fn shrunk(record: &RunRecord) -> String {
-    match (record.best_epoch, record.epoch_zero) {
-        (0, _) => " (the nominal model)".into(),
-        (_, Some(_)) => format!(", of which {} is added", significant(record.factor, DIGITS)),
-        (_, None) => String::new(),
+    match record.best_epoch {
+        0 => " (the nominal model)".into(),
+        _ if record.factor < 1.0 => format!(", of which {} is added", significant(record.factor, DIGITS)),
+        _ => String::new(),
     }
 }

@@ -51,6 +51,7 @@ fn scored(mut experiment: Experiment, imported: Imported) -> Result<Experiment, 
         });
     }
     experiment.baseline = None;
+    experiment.inputs.straight_path = false; // the network learned the whole residual
     experiment.training = TrainingConfig::of_imported(imported);
     experiment.protocol.cross_validation = false;
     experiment.protocol.final_runs = true;

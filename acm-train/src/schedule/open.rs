@@ -51,6 +51,8 @@ pub struct Run {
     pub asked: usize,
     /// The plan's name.
     pub plan: String,
+    /// Whether it follows the other runs of its configuration.
+    pub follows: bool,
     /// Path of its record.
     pub record: PathBuf,
     /// Path of its checkpoint.
@@ -65,11 +67,12 @@ impl Planned {
         folder: &RunFolder,
         file: &Path,
         what: What,
-        plans: impl Iterator<Item = String>,
+        plans: impl Iterator<Item = (String, bool)>,
     ) {
         let below = folder.root().strip_prefix(root).unwrap_or(folder.root()).to_path_buf();
         let asked = self.asked.len();
-        self.runs.extend(plans.map(|plan| Run {
+        self.runs.extend(plans.map(|(plan, follows)| Run {
+            follows,
             id: below.join(&plan).to_string_lossy().into_owned(),
             asked,
             record: folder.record(&plan),
@@ -84,9 +87,16 @@ impl Planned {
         Self { asked: vec![], runs: vec![] }
     }
 
-    /// Runs without a record.
+    /// Number of runs without a record.
+    pub fn unfinished(&self) -> usize {
+        self.runs.iter().filter(|run| !run.record.exists()).count()
+    }
+
+    /// Runs without a record, and without those that still wait for others.
     pub fn open(&self) -> Vec<&Run> {
-        self.runs.iter().filter(|run| !run.record.exists()).collect()
+        let missing: Vec<&Run> = self.runs.iter().filter(|run| !run.record.exists()).collect();
+        let waits = |run: &Run| run.follows && missing.iter().any(|other| other.asked == run.asked && !other.follows);
+        missing.iter().copied().filter(|run| !waits(run)).collect()
     }
 }
 
@@ -95,7 +105,13 @@ pub fn planned(experiments: &[Ready], folders: &[RunFolder], root: &Path) -> Pla
     let mut planned = Planned::none();
     for (ready, folder) in experiments.iter().zip(folders) {
         let what = What::Experiment(Box::new(ready.experiment.clone()));
-        planned.add(root, folder, &ready.file, what, ready.plans.iter().map(|plan| plan.id.clone()));
+        planned.add(
+            root,
+            folder,
+            &ready.file,
+            what,
+            ready.plans.iter().map(|plan| (plan.id.clone(), plan.follows_folds())),
+        );
     }
     planned
 }

@@ -4,6 +4,7 @@
 //! | ----------------- | --------------------- | ---------------- | --------------- | --------------------- |
 //! | cross-validation  | one per fold and seed | the other folds  | the fold        | the fold              |
 //! | final             | one per seed          | all but one fold | that fold       | that fold; held-out trials once, at the end |
+//! | final, with cross-validation and a carried state | one per seed | all folds | the runs of cross-validation | held-out trials once, at the end |
 //!
 //! What the folds are, [`acm_datasets::folds`] says. In final runs the k-th seed leaves out the k-th of K folds, then k mod K, so that all of
 //! them choose epochs; `protocol.validation_fold` asks for one of them.
@@ -50,7 +51,9 @@ pub fn plans(experiment: &Experiment, source: &Source, data: &Data, folds: &Fold
     let stamp = |fold: usize| FoldStamp { made: folds.to_string(), count, fold, value_of: value_of.clone() };
     let mut plans = vec![];
     if protocol.cross_validation {
-        let runs = (0..count).flat_map(|fold| protocol.seeds.iter().map(move |&seed| (fold, seed)));
+        // Where the folds only choose for the final runs, one seed of each is enough.
+        let seeds = &protocol.seeds[..if experiment.refits() { 1 } else { protocol.seeds.len() }];
+        let runs = (0..count).flat_map(|fold| seeds.iter().map(move |&seed| (fold, seed)));
         plans.extend(runs.map(|(fold, seed)| {
             let (id, stage) = (format!("fold{fold}-seed{seed}"), Stage::CrossValidation { fold });
             Plan { id, stage, seed, folds: stamp(fold), split: split(fold, &[]) }
@@ -60,7 +63,9 @@ pub fn plans(experiment: &Experiment, source: &Source, data: &Data, folds: &Fold
         plans.extend(protocol.seeds.iter().enumerate().map(|(k, &seed)| {
             let fold = protocol.validation_fold.unwrap_or(k % count);
             let (id, stage) = (format!("final-seed{seed}"), Stage::Final);
-            Plan { id, stage, seed, folds: stamp(fold), split: split(fold, &held_out) }
+            let all = Split { training: learners.clone(), validation: vec![], held_out: held_out.clone() };
+            let split = if experiment.refits() { all } else { split(fold, &held_out) };
+            Plan { id, stage, seed, folds: stamp(fold), split }
         }));
     }
     Ok(plans)
@@ -76,7 +81,7 @@ pub fn folds(experiment: &Experiment, source: &Source, mut data: Data) -> Result
     let folds = made(experiment, source, &data, &learners, &held_out)?;
     if folds.by == By::Block {
         let cut = validating(&data, &learners).into_iter().map(|entry| entry.name.clone()).collect::<Vec<_>>();
-        data.cut(&cut, folds.validation.len(), experiment.windows.gap())?;
+        data.cut(&cut, folds.validation.len(), experiment.windows.gap(), experiment.memory.is_trial())?;
     }
     let (learners, _) = parts(experiment, source, &data)?;
     refuse_unknown_trials(experiment, source, &learners, &folds)?;
@@ -104,7 +109,7 @@ fn made(
     // The manifest's folds are of its own parts.
     let listed = if protocol.held_out.is_some() { FoldTable::default() } else { data.manifest.folds.clone() };
     let manifest = Manifest { folds: listed, ..data.manifest.clone() };
-    let made = rule(&manifest, &asked, &validating(data, learners), &held_out, experiment.windows.reach);
+    let made = rule(&manifest, &asked, &validating(data, learners), &held_out, experiment.targets(1).reach);
     made.ok_or_else(|| {
         let signal = protocol.leave_out.as_deref().unwrap_or_default();
         let what = format!("is {signal:?}, which is no signal that is constant within trials and differs between them");

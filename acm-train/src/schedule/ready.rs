@@ -77,10 +77,11 @@ impl Ready {
             let (before, now) = (&nominal.data.hash, &stamp.hash);
             match before == now {
                 true => Ok(nominal.clone()),
-                false => Err(ScheduleError::Usage {
+                false => Err(RunError::Unusable {
                     what: format!("the data {} have changed: hash {before}, now {now}", data.folder.display()),
-                    help: "put the former data back, or start again with --out DIR".into(),
-                }),
+                    help: "put the former data back, or train again with another --out".into(),
+                }
+                .into()),
             }
         };
         Self::with(experiment, source, request, campaigns, same)

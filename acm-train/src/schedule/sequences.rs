@@ -74,7 +74,7 @@ pub fn answer(
     }
     let mut planned = Planned::none();
     let what = What::Question(Box::new(question.clone()));
-    planned.add(request.out, &folder, source.path(), what, plans.iter().map(|plan| plan.id.clone()));
+    planned.add(request.out, &folder, source.path(), what, plans.iter().map(|plan| (plan.id.clone(), false)));
     if let Answer::Waiting(text) = elsewhere(&planned, request)? {
         return Ok(Answer::Waiting(text));
     }

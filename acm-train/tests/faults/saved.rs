@@ -111,7 +111,8 @@ fn checkpoint(question: &Question) -> Saved {
     let training = Scored::new(&setting, pair, &plan.split.training, asked.stride).unwrap();
     let validation = Scored::new(&setting, pair, &plan.split.validation, asked.evaluation_stride).unwrap();
     let scalers = Scalers::of_each(|see| training.each(see)).unwrap();
-    let (training, validation) = (training.window_set(&scalers).unwrap(), validation.window_set(&scalers).unwrap());
+    let training = training.training_examples(&scalers).unwrap();
+    let validation = validation.scored_examples(&scalers).unwrap();
     let device = device("flex").unwrap();
     let task = Task {
         network: &ready.experiment.network,
@@ -120,7 +121,7 @@ fn checkpoint(question: &Question) -> Saved {
         seed: plan.seed,
         device: &device,
     };
-    let identity = Identity::new(&task, &training, &validation);
+    let identity = Identity::new(&task, &*training, Some(&*validation));
     let network = Network::new(task.network, ready.channels.len(), outputs, 1, &device);
     let file = format!("checkpoints/{}.safetensors", plan.id);
     saved(question, "checkpoint", &file, move |path| {

@@ -192,7 +192,7 @@ fn a_changed_list_or_changed_data_are_found() {
     cluster.0.write("data/d1.csv", &table.replacen("0.1,", "0.11,", 1));
     let refused = cluster.task("0").output().unwrap();
     let message = String::from_utf8_lossy(&refused.stderr).into_owned();
-    assert_eq!(refused.status.code(), Some(2), "{message}");
+    assert_eq!(refused.status.code(), Some(3), "{message}");
     assert!(message.contains("have changed"), "{message}");
     let list = String::from_utf8(cluster.0.read("out/slurm/0001.json")).unwrap();
     cluster.0.write("out/slurm/0001.json", &list.replacen("\"units\": 4", "\"units\": 5", 1));

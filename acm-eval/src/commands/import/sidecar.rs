@@ -81,6 +81,6 @@ impl Sidecar {
     /// Returns the scalers that the network was trained with.
     pub fn scalers(&self) -> Option<Scalers> {
         let (inputs, targets) = self.about.inputs.clone().zip(self.about.targets.clone())?;
-        Some(Scalers { inputs, targets, actuators: vec![] })
+        Some(Scalers { inputs, targets, actuators: vec![], straight: None })
     }
 }

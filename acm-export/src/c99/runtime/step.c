@@ -22,8 +22,8 @@ static int take($name_state *s, const double *in, double elapsed, int seen, $who
             }
             x[c] = (float)z[c];
         }
-@ASK        for (int o = 0; o < @OUTPUTS; ++o) {
-            out[o] = y[@TIP + o] + ((double)predicted[o] * TARGET_SPREAD[o] + TARGET_MEAN[o]);
+@ASK@STRAIGHT        for (int o = 0; o < @OUTPUTS; ++o) {
+            out[o] = y[@TIP + o] + ((double)predicted[o] * TARGET_SPREAD[o] + TARGET_MEAN[o]@PATH);
             if (!(out[o] >= -1e290 && out[o] <= 1e290)) {
                 @REFUSE_OUTPUT
             }

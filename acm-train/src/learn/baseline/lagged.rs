@@ -1,10 +1,13 @@
-//! Windows as input of a baseline: standardised, in double precision, indexed and not copied.
+//! Windows as input of a baseline: standardised, in double precision, indexed and not copied. Before the first sample of a
+//! segment the channels are as at that sample.
 //!
 //! | symbol | meaning                                | shape | unit |
 //! | ------ | -------------------------------------- | ----- | ---- |
 //! | x_k    | channels at sample k, standardised     | [C]   | –    |
 //! | y_k    | residual at sample k, standardised     | [O]   | –    |
 //! | Δt_k   | elapsed time since the previous sample   |       | s    |
+
+use std::ops::Range;
 
 use acm_datasets::{Series, Window};
 use nalgebra::DMatrix;
@@ -27,6 +30,7 @@ struct Columns<'a> {
     inputs: DMatrix<f64>,
     targets: DMatrix<f64>,
     elapsed: &'a [f64],
+    segments: &'a [Range<usize>],
 }
 
 impl<'a> Lagged<'a> {
@@ -36,6 +40,7 @@ impl<'a> Lagged<'a> {
             inputs: scalers.inputs.standardize(&one.inputs).transpose(),
             targets: scalers.targets.standardize(&one.target),
             elapsed: &one.elapsed,
+            segments: &one.segments,
         };
         let (channels, outputs) = (scalers.inputs.mean.len(), scalers.targets.mean.len());
         Self { parts: series.iter().map(columns).collect(), windows, length, channels, outputs }
@@ -66,22 +71,29 @@ impl<'a> Lagged<'a> {
         self.outputs
     }
 
-    /// Returns the last `lags` samples of a window, oldest first, channel by channel: [lags·C].
-    pub fn past(&self, window: usize, lags: usize) -> &[f64] {
-        let Window { series, end } = self.windows[window];
-        &self.parts[series].inputs.as_slice()[(end + 1 - lags) * self.channels..(end + 1) * self.channels]
+    /// Writes the last `lags` samples of a window, oldest first, channel by channel: [lags·C].
+    pub fn past(&self, window: usize, lags: usize, out: &mut [f64]) {
+        let (part, end) = self.at(window);
+        for (lag, sample) in (0..lags).rev().zip(out.chunks_exact_mut(self.channels)) {
+            sample.copy_from_slice(part.inputs.column(part.sample(end, lag)).as_slice());
+        }
     }
 
     /// Returns a channel `lag` samples before the last one.
     pub fn input(&self, window: usize, lag: usize, channel: usize) -> f64 {
-        let Window { series, end } = self.windows[window];
-        self.parts[series].inputs[(channel, end - lag)]
+        let (part, end) = self.at(window);
+        part.inputs[(channel, part.sample(end, lag))]
     }
 
     /// Returns the elapsed time from the sample `lag` samples back to the last one, s.
     pub fn age(&self, window: usize, lag: usize) -> f64 {
+        let (part, end) = self.at(window);
+        part.elapsed[part.sample(end, lag) + 1..=end].iter().sum()
+    }
+
+    fn at(&self, window: usize) -> (&Columns<'a>, usize) {
         let Window { series, end } = self.windows[window];
-        self.parts[series].elapsed[end + 1 - lag..=end].iter().sum()
+        (&self.parts[series], end)
     }
 
     /// Returns the targets of all windows: [N×O].
@@ -91,6 +103,14 @@ impl<'a> Lagged<'a> {
             self.parts[series].targets[(end, output)]
         };
         DMatrix::from_fn(self.len(), self.outputs, target)
+    }
+}
+
+impl Columns<'_> {
+    /// Returns the sample `lag` samples before `end`, or the first of its segment.
+    fn sample(&self, end: usize, lag: usize) -> usize {
+        let segment = self.segments.partition_point(|segment| segment.end <= end);
+        end.saturating_sub(lag).max(self.segments[segment].start)
     }
 }
 
@@ -126,7 +146,7 @@ pub(super) mod tests {
     /// Returns the scalers that change nothing.
     pub fn identity(channels: usize, outputs: usize) -> Scalers {
         let plain = |n: usize| Standardizer { mean: vec![0.0; n], spread: vec![1.0; n] };
-        Scalers { inputs: plain(channels), targets: plain(outputs), actuators: vec![] }
+        Scalers { inputs: plain(channels), targets: plain(outputs), actuators: vec![], straight: None }
     }
 
     /// Oracle: by hand. Sample k holds (10 k, 10 k + 1), standardised by mean 10 and spread 2.
@@ -138,9 +158,14 @@ pub(super) mod tests {
         let windows = windows(&series, 3);
         let lagged = Lagged::new(&series, &windows, 3, &scalers);
         assert_eq!((lagged.len(), lagged.channels(), lagged.outputs()), (2, 2, 1));
-        assert_eq!(lagged.past(1, 2), [5.0, 5.5, 10.0, 10.5]);
+        let mut past = [0.0; 4];
+        lagged.past(1, 2, &mut past);
+        assert_eq!(past, [5.0, 5.5, 10.0, 10.5]);
         assert_eq!(lagged.input(1, 2, 1), 0.5);
         assert_eq!((lagged.age(1, 2), lagged.age(1, 0)), (0.2, 0.0));
         assert_eq!(lagged.targets().as_slice(), [2.0, 3.0]);
+        let early = [Window { series: 0, end: 1 }];
+        let lagged = Lagged::new(&series, &early, 3, &scalers);
+        assert_eq!((lagged.input(0, 2, 0), lagged.age(0, 2)), (-5.0, 0.1));
     }
 }

@@ -155,7 +155,7 @@ fn blocks(windows: &Lagged) -> impl Iterator<Item = Range<usize>> {
 fn features(windows: &Lagged, rows: Range<usize>, lags: usize) -> DMatrix<f64> {
     let mut features = DMatrix::zeros(lags * windows.channels(), rows.len());
     for (mut column, window) in features.column_iter_mut().zip(rows) {
-        column.copy_from_slice(windows.past(window, lags));
+        windows.past(window, lags, column.as_mut_slice());
     }
     features
 }

@@ -75,6 +75,15 @@ impl Batch {
         &self.slopes[row * width..(row + rows) * width]
     }
 
+    /// Returns the predictions that count, and their targets.
+    pub fn scored<'a>(&'a self, predictions: &'a [f32]) -> [Cow<'a, [f32]>; 2] {
+        let counted = |values: &'a [f32]| match &self.counted[..] {
+            [] => Cow::Borrowed(values),
+            mask => values.iter().zip(mask).filter(|(_, counted)| **counted).map(|(value, _)| *value).collect(),
+        };
+        [counted(predictions), counted(&self.targets)]
+    }
+
     /// Returns the sum of the loss over the predictions that count, and their number.
     pub fn error(&self, predictions: &[f32]) -> (f64, usize) {
         let error = |(p, t): (&f32, &f32)| self.loss.of(*p, *t);

@@ -45,7 +45,8 @@ impl Learned {
             .then(|| set.outputs.iter().map(|output| place(output).expect("validated: targets are seen")).collect());
         let inputs = Standardizer::fit(&set.training.iter().map(|one| &one.inputs).collect::<Vec<_>>());
         let labels = Standardizer { mean: vec![0.0; set.outputs.len()], spread: vec![1.0; set.outputs.len()] };
-        let mut learned = Self { loss, scalers: Scalers { inputs, targets: labels, actuators: vec![] }, places };
+        let mut learned =
+            Self { loss, scalers: Scalers { inputs, targets: labels, actuators: vec![], straight: None }, places };
         if loss == Loss::MeanSquare {
             let all: Vec<Cow<DMatrix<f64>>> = set.training.iter().map(|one| learned.targets(one)).collect();
             let mut fitted = Standardizer::fit(&all.iter().map(AsRef::as_ref).collect::<Vec<_>>());

@@ -8,13 +8,23 @@ use rand_chacha::rand_core::{Rng, SeedableRng};
 
 /// Returns a permutation of 0 .. `count`.
 pub fn order(count: usize, seed: u64, epoch: usize) -> Vec<usize> {
+    draw(count, count, seed, epoch)
+}
+
+/// Returns the first `wanted` numbers of permutations of 0 .. `count`, one after the other.
+pub fn draw(count: usize, wanted: usize, seed: u64, epoch: usize) -> Vec<usize> {
     let mut generator = ChaCha8Rng::seed_from_u64(seed);
     generator.set_stream((1 << 32) + epoch as u64);
-    let mut order: Vec<usize> = (0..count).collect();
-    for last in (1..count).rev() {
-        order.swap(last, below(last as u64 + 1, &mut generator) as usize);
+    let mut drawn = Vec::with_capacity(wanted);
+    while drawn.len() < wanted && count > 0 {
+        let mut order: Vec<usize> = (0..count).collect();
+        for last in (1..count).rev() {
+            order.swap(last, below(last as u64 + 1, &mut generator) as usize);
+        }
+        order.truncate(wanted - drawn.len());
+        drawn.append(&mut order);
     }
-    order
+    drawn
 }
 
 /// Draws uniformly from 0 .. `end`: draws that would favour small numbers are drawn again.
@@ -43,6 +53,16 @@ mod tests {
         assert_ne!(first, order(1000, 8, 1));
         assert_eq!(order(0, 7, 1), Vec::<usize>::new());
         assert_eq!(order(1, 7, 1), [0]);
+    }
+
+    /// Oracle: three permutations of 4 hold each number three times; two more are different numbers.
+    #[test]
+    fn a_draw_uses_all_before_any_again() {
+        let drawn = draw(4, 14, 7, 1);
+        let times = |n: usize| drawn[..12].iter().filter(|one| **one == n).count();
+        assert_eq!((0..4).map(times).collect::<Vec<_>>(), [3; 4]);
+        assert!(drawn.len() == 14 && drawn[12] != drawn[13]);
+        assert_eq!((draw(1000, 10, 7, 1), draw(0, 5, 7, 1)), (order(1000, 7, 1)[..10].to_vec(), vec![]));
     }
 
     /// Oracle: each of the 6 orders of 3 is due a sixth of the time; 6000 draws stray by less than 5 σ = 144.

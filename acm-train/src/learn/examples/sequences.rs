@@ -19,7 +19,7 @@ use super::Examples;
 use super::batch::Batch;
 use super::learned::Learned;
 use super::order::order;
-use super::windows::{by_rows, single};
+use super::single::{by_rows, single};
 use crate::config::{Elapsed, Loss};
 use crate::learn::fit::evaluate::walk;
 

@@ -20,7 +20,9 @@ use sha2::{Digest, Sha256};
 
 use super::Examples;
 use super::batch::Batch;
+use super::single::by_rows;
 use crate::learn::correction::{self, SlopeSums, Widths};
+use crate::learn::straight::Straight;
 
 /// Mean and spread of inputs and targets, from the training part.
 #[derive(Debug, Clone, PartialEq)]
@@ -31,6 +33,8 @@ pub struct Scalers {
     pub targets: Standardizer,
     /// Scale `d` of each actuator that is corrected ([`correction`]); none where the tip alone is.
     pub actuators: Vec<f64>,
+    /// Straight path beside the network, where there is one; the network then learns what it leaves.
+    pub straight: Option<Straight>,
 }
 
 impl Scalers {
@@ -67,7 +71,38 @@ impl Scalers {
         if sloped {
             training(&mut |series| slopes.add(series, &targets))?;
         }
-        Ok(Self { inputs, targets, actuators: slopes.scales() })
+        Ok(Self { inputs, targets, actuators: slopes.scales(), straight: None })
+    }
+
+    /// Adds a straight path, where one predicts better than a constant ([`Straight::chosen`]).
+    ///
+    /// # Errors
+    /// What `training` says.
+    pub fn with_straight<E>(
+        mut self,
+        levels: &[bool],
+        training: impl Fn(&mut dyn FnMut(&Series)) -> Result<(), E>,
+    ) -> Result<Self, E> {
+        self.straight = Straight::chosen(&self.inputs, levels, &training)?;
+        let mut targets = Means::default();
+        training(&mut |series| targets.add(&self.measured_target(series)))?;
+        let mut targets = targets.spreads();
+        training(&mut |series| targets.add(&self.measured_target(series)))?;
+        self.targets = targets.standardizer();
+        Ok(self)
+    }
+
+    /// Returns what the network learns of a series [T×O]: the residual, less the straight path.
+    fn target(&self, series: &Series) -> DMatrix<f64> {
+        match &self.straight {
+            None => series.target.clone(),
+            Some(straight) => &series.target - straight.along(&self.inputs, series),
+        }
+    }
+
+    fn measured_target(&self, series: &Series) -> DMatrix<f64> {
+        let rows: Vec<usize> = (0..series.time.len()).filter(|sample| series.is_measured(*sample)).collect();
+        self.target(series).select_rows(&rows)
     }
 }
 
@@ -82,13 +117,13 @@ pub struct WindowSet {
 
 /// One series in single precision, row after row.
 #[derive(Debug, Clone)]
-struct Columns {
-    trial: String,
-    inputs: Vec<f32>,
-    elapsed: Vec<f32>,
-    targets: Vec<f32>,
+pub(super) struct Columns {
+    pub trial: String,
+    pub inputs: Vec<f32>,
+    pub elapsed: Vec<f32>,
+    pub targets: Vec<f32>,
     /// Slopes [T×O×A]; empty where the tip alone is corrected.
-    slopes: Vec<f32>,
+    pub slopes: Vec<f32>,
     /// Samples without an output.
     unmeasured: Vec<usize>,
 }
@@ -177,25 +212,11 @@ impl WindowSet {
         }
     }
 
-    /// Converts standardised predictions, row after row, to residuals in their own unit: [N×O].
-    pub fn restore(&self, predictions: &[f32]) -> DMatrix<f64> {
-        let values = predictions.iter().map(|&value| f64::from(value));
-        let rows = predictions.len() / self.outputs();
-        self.scalers.targets.restore(&DMatrix::from_row_iterator(rows, self.outputs(), values))
-    }
-
     /// Returns the SHA-256 over all that a fit sees of these windows, in hexadecimal.
     pub fn fingerprint(&self) -> String {
         let mut hash = Sha256::new();
         hash.update((self.length as u64).to_le_bytes());
-        for columns in &self.columns {
-            let hashed = [&columns.inputs, &columns.elapsed, &columns.targets, &columns.slopes];
-            // Without slopes the hash is that of files from before there were any.
-            for values in hashed.into_iter().take(if columns.slopes.is_empty() { 3 } else { 4 }) {
-                hash.update((values.len() as u64).to_le_bytes());
-                values.iter().for_each(|value| hash.update(value.to_le_bytes()));
-            }
-        }
+        self.columns.iter().for_each(|columns| columns.hash(&mut hash));
         for window in &self.windows {
             hash.update((window.series as u64).to_le_bytes());
             hash.update((window.end as u64).to_le_bytes());
@@ -239,26 +260,26 @@ impl Examples for WindowSet {
 }
 
 impl Columns {
-    fn new(series: &Series, scalers: &Scalers) -> Self {
+    pub fn new(series: &Series, scalers: &Scalers) -> Self {
         Self {
             trial: series.trial.clone(),
             inputs: by_rows(&scalers.inputs.standardize(&series.inputs)),
             elapsed: series.elapsed.iter().map(|&seconds| seconds as f32).collect(),
-            targets: by_rows(&scalers.targets.standardize(&series.target)),
+            targets: by_rows(&scalers.targets.standardize(&scalers.target(series))),
             slopes: correction::standardised(series, &scalers.targets, &scalers.actuators),
             unmeasured: (0..series.time.len()).filter(|sample| !series.is_measured(*sample)).collect(),
         }
     }
-}
 
-/// Converts numbers to the single precision of a network.
-pub(super) fn single(values: &[f64]) -> Vec<f32> {
-    values.iter().map(|&value| value as f32).collect()
-}
-
-/// Returns the rows, one after the other.
-pub(super) fn by_rows(values: &DMatrix<f64>) -> Vec<f32> {
-    values.row_iter().flat_map(|row| row.iter().map(|&value| value as f32).collect::<Vec<_>>()).collect()
+    /// Adds all numbers to a hash.
+    pub fn hash(&self, hash: &mut Sha256) {
+        let hashed = [&self.inputs, &self.elapsed, &self.targets, &self.slopes];
+        // Without slopes the hash is that of files from before there were any.
+        for values in hashed.into_iter().take(if self.slopes.is_empty() { 3 } else { 4 }) {
+            hash.update((values.len() as u64).to_le_bytes());
+            values.iter().for_each(|value| hash.update(value.to_le_bytes()));
+        }
+    }
 }
 
 #[cfg(test)]

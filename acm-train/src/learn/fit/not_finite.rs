@@ -36,7 +36,7 @@ impl NotFinite {
     pub(super) fn of(
         engine: &mut Engine,
         weights: &[f32],
-        examples: &impl Examples,
+        examples: &dyn Examples,
         chosen: &[usize],
         keep: Keep,
     ) -> Self {

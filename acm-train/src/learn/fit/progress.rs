@@ -40,6 +40,12 @@ impl Progress {
         self.epochs.push(epoch);
     }
 
+    /// Records an epoch whose weights are in place, and keeps them whatever came before.
+    pub fn note_last(&mut self, epoch: Epoch) {
+        self.best.clone_from(&self.weights);
+        self.epochs.push(epoch);
+    }
+
     /// Returns the epoch with the lowest validation loss, which may be epoch 0; the first of equals.
     pub fn best_epoch(&self) -> Option<&Epoch> {
         self.zero.iter().chain(&self.epochs).min_by(|a, b| a.validation_loss.total_cmp(&b.validation_loss))

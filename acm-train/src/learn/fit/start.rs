@@ -23,8 +23,8 @@ use crate::learn::examples::Examples;
 /// Records epoch 0.
 pub fn note(
     network: &Network,
-    training: &impl Examples,
-    validation: &impl Examples,
+    training: &dyn Examples,
+    validation: &dyn Examples,
     engine: &mut Engine,
     progress: &mut Progress,
 ) {

@@ -5,6 +5,7 @@ use acm_models::{Keep, Network, NetworkConfig};
 
 use super::epoch::Epoch;
 use crate::config::TrainingConfig;
+use crate::learn::examples::Examples;
 use crate::learn::projection::Projection;
 
 /// A fit: network, settings, device.
@@ -20,6 +21,17 @@ pub struct Task<'a> {
     pub seed: u64,
     /// Device of the computation, without autodiff.
     pub device: &'a Device,
+}
+
+impl Task<'_> {
+    /// Returns the network before the first step.
+    ///
+    /// # Panics
+    /// If the configuration was not validated.
+    pub fn network(&self, training: &dyn Examples) -> Network {
+        let (rule, inputs, outputs) = (self.training.first_values, training.channels(), training.said());
+        Network::by(rule, self.network, inputs, outputs, self.seed, self.device)
+    }
 }
 
 /// Answer of the observer of an epoch.

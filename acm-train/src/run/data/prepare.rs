@@ -5,7 +5,8 @@
 use std::{collections::BTreeMap, ops::Range};
 
 use acm_datasets::{
-    Campaign, Channel, DropReason, Entry, Manifest, Role, Series, Trial, default_channels, domain_filter,
+    Campaign, Channel, DropReason, Entry, Manifest, Role, Series, Trial, default_channels, default_rates,
+    domain_filter,
     levels::{self, Constant},
     series,
 };
@@ -93,7 +94,8 @@ pub fn filtered(campaign: Campaign, experiment: &Experiment) -> Result<Campaign,
     Ok(Campaign { trials, ..campaign })
 }
 
-/// Returns the channels that the experiment names, or all actuators and context signals.
+/// Returns the channels that the experiment names, or all actuators and context signals, and where the state is carried their
+/// rates ([`default_rates`]).
 ///
 /// # Errors
 /// A name that the data do not have.
@@ -103,7 +105,10 @@ pub fn channels(
     manifest: &Manifest,
     trials: &[Entry],
 ) -> Result<Vec<Channel>, RunError> {
-    let names = experiment.inputs.channels.clone().unwrap_or_else(|| default_channels(manifest));
+    let names = experiment.inputs.channels.clone().unwrap_or_else(|| {
+        let rates = if experiment.memory.is_trial() { default_rates(manifest, trials) } else { vec![] };
+        [default_channels(manifest), rates].concat()
+    });
     let parse = |name: &String| {
         Channel::parse(name, manifest, trials).map_err(|unknown| {
             let key = ["inputs".to_string(), "channels".to_string()];
@@ -140,6 +145,9 @@ pub fn refuse_long_windows(
     plans: &[Plan],
 ) -> Result<(), RunError> {
     let asked = &experiment.windows;
+    if experiment.memory.is_trial() {
+        return Ok(());
+    }
     let entries: BTreeMap<&str, &Entry> = data.entries.iter().map(|entry| (entry.name.as_str(), entry)).collect();
     for plan in plans {
         for (part, names) in [("training", &plan.split.training), ("validation", &plan.split.validation)] {

@@ -3,11 +3,12 @@
 
 use std::borrow::Cow;
 
-use acm_datasets::{DataError, Series, Window, WindowSpec, windows_of};
+use acm_datasets::{DataError, Series, Window, windows_of};
 use nalgebra::DMatrix;
 
+use super::examples;
 use super::prepare::Part;
-use crate::learn::{Scalers, WindowSet};
+use crate::learn::{Examples, Scalers};
 use crate::run::evaluation::score::{ResidualSums, TrialPrediction};
 use crate::run::record::CalibrationPair;
 use crate::run::setting::Setting;
@@ -63,8 +64,7 @@ impl<'a> Scored<'a> {
 
     /// Finds the windows, and sums the residual at their ends.
     fn lay(&mut self, stride: usize) -> Result<(), DataError> {
-        let asked = &self.setting.experiment.windows;
-        let spec = WindowSpec { length: asked.length, reach: asked.reach, stride };
+        let spec = self.setting.experiment.targets(stride);
         let (mut windows, mut counts, mut residuals) = (vec![], vec![], self.residuals.clone());
         let mut constant: Option<Vec<Option<f64>>> = None;
         self.each(&mut |series| {
@@ -100,6 +100,19 @@ impl<'a> Scored<'a> {
         self.constant.iter().copied().collect::<Option<Vec<f64>>>().filter(|values| !values.is_empty())
     }
 
+    /// Returns the rows of `of` [T×O] at the targets of each series, in the order of series and time.
+    ///
+    /// # Errors
+    /// A trial that cannot be read.
+    pub fn at_targets(&self, of: impl Fn(&Series) -> DMatrix<f64>) -> Result<DMatrix<f64>, DataError> {
+        let (mut rows, mut windows, mut counts) = (vec![], self.windows.iter(), self.counts.iter());
+        self.each(&mut |series| {
+            let (values, count) = (of(series), counts.next().copied().unwrap_or(0));
+            rows.extend(windows.by_ref().take(count).map(|window| values.row(window.end).into_owned()));
+        })?;
+        Ok(DMatrix::from_rows(&rows))
+    }
+
     /// Returns all series, where they are in memory.
     pub fn held(&self) -> &[Series] {
         self.held.as_ref().map_or(&[], |part| &part.series)
@@ -116,15 +129,20 @@ impl<'a> Scored<'a> {
         })
     }
 
-    /// Returns the windows in single precision.
+    /// Returns the examples that a network learns from.
     ///
     /// # Errors
     /// A trial that cannot be read.
-    pub fn window_set(&self, scalers: &Scalers) -> Result<WindowSet, DataError> {
-        let mut set = WindowSet::empty(self.setting.experiment.windows.length, scalers);
-        self.each(&mut |series| set.push(series))?;
-        set.lay(self.windows.clone());
-        Ok(set)
+    pub fn training_examples(&self, scalers: &Scalers) -> Result<Box<dyn Examples>, DataError> {
+        examples::training(self.setting.experiment, scalers, |see| self.each(see))
+    }
+
+    /// Returns the examples that a network predicts.
+    ///
+    /// # Errors
+    /// A trial that cannot be read.
+    pub fn scored_examples(&self, scalers: &Scalers) -> Result<Box<dyn Examples>, DataError> {
+        examples::scored(self.setting.experiment, scalers, |see| self.each(see))
     }
 
     /// Returns all estimates at the windows' ends, trial by trial, where the model adds `residual` [N×O]; trials

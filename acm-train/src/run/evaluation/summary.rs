@@ -15,7 +15,10 @@ pub fn text(records: &[&RunRecord]) -> String {
         records.iter().copied().filter(|r| (r.stage == Stage::Final) == is_final).collect()
     };
     let (folds, seeds) = (of_stage(false), of_stage(true));
-    let validation = |records: &[&RunRecord]| records.iter().map(|r| r.validation.clone()).collect::<Vec<_>>();
+    let validation = |records: &[&RunRecord]| {
+        let validated = records.iter().filter(|record| !record.split.has_no_validation());
+        validated.map(|record| record.validation.clone()).collect::<Vec<_>>()
+    };
     let held_out: Vec<PartScores> = seeds.iter().filter_map(|r| r.held_out.clone()).collect();
     let mut parts = vec![
         part(first, &format!("Cross-validation, {}", count(folds.len(), "fold")), &validation(&folds), false),

@@ -175,6 +175,7 @@ fn gains(records: &[&RunRecord]) -> Vec<Gain> {
 fn left_out(record: &RunRecord) -> Option<usize> {
     match record.stage {
         Stage::CrossValidation { fold } => Some(fold),
+        Stage::Final if record.split.has_no_validation() => None,
         Stage::Final => record.folds.as_ref().map(|folds| folds.fold),
     }
 }

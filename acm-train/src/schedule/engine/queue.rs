@@ -47,7 +47,11 @@ pub fn run(
     let progress = if many { request.progress.of_many() } else { request.progress.clone() };
     let whole = if many { progress.whole(open.len()) } else { None };
     let queue = Queue { experiments, folders, open, request, progress, whole, records: Mutex::new(records) };
-    side_by_side(queue.open.len(), request, |next| queue.one(queue.open[next]))?;
+    for follows in [false, true] {
+        let of = |(e, p): &&(usize, usize)| experiments[*e].plans[*p].follows_folds() == follows;
+        let open: Vec<(usize, usize)> = queue.open.iter().filter(of).copied().collect();
+        side_by_side(open.len(), request, |next| queue.one(open[next]))?;
+    }
     queue.outcome()
 }
 

@@ -41,7 +41,7 @@ pub fn wait(slurm: &Slurm, planned: &Planned, request: &Request) -> Result<(), S
             Err(error) => return Err(error),
         }
         for _ in 0..(pause.as_millis() / LOOK.as_millis()).max(1) {
-            let done = all - planned.open().len();
+            let done = all - planned.unfinished();
             if let Some(bar) = &bar {
                 bar.set_position(done as u64);
             } else if told == usize::MAX || 10 * done / all != 10 * told / all {
