@@ -6,7 +6,7 @@
 //!
 //! | symbol | meaning                                                        | shape | unit        |
 //! | ------ | -------------------------------------------------------------- | ----- | ----------- |
-//! | `p, s` | measured outputs, and their standard deviations over all samples | [T×O], [O] | of the outputs |
+//! | `p, s` | measured outputs, and their standard deviations over all samples | `[T×O], [O]` | of the outputs |
 //! | `e`    | mean squared error of degree d on block b; [`simplest`] chooses by it | –     | 1           |
 //!
 //! Blocks are runs of successive samples. An actuator that rests at L values allows degrees up to L − 2, and always 1: such a degree

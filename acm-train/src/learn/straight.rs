@@ -6,9 +6,9 @@
 //!
 //! | symbol | meaning                                     | shape     | unit |
 //! | ------ | ------------------------------------------- | --------- | ---- |
-//! | `x̃`    | channels, standardised                      | [C]       | –    |
-//! | `r`    | residual of the nominal model               | [O]       | m    |
-//! | `W`    | weights of the path                         | [O×(C+1)] | m    |
+//! | `x̃`    | channels, standardised                      | `[C]`     | –    |
+//! | `r`    | residual of the nominal model               | `[O]`     | m    |
+//! | `W`    | weights of the path                         | `[O×(C+1)]` | m    |
 //! | `ρ`    | ridge, so that collinear channels have a W  | –         | –    |
 //!
 //! The path is used where it predicts blocks of the training part left out better than a constant, by more than one standard error of the
@@ -28,7 +28,7 @@ const RIDGE: f64 = 1e-6;
 /// Weights of the path.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Straight {
-    /// Rows of the channels, then of the constant: [(C+1)×O].
+    /// Rows of the channels, then of the constant: `[(C+1)×O]`.
     weights: DMatrix<f64>,
 }
 
@@ -71,7 +71,7 @@ impl Straight {
         products.fold(weights[channels.len()], |sum, product| sum + product)
     }
 
-    /// Returns the path's prediction at each sample of a series [T×O].
+    /// Returns the path's prediction at each sample of a series `[T×O]`.
     pub fn along(&self, inputs: &Standardizer, series: &Series) -> DMatrix<f64> {
         let channels = by_rows(&inputs.standardize(&series.inputs));
         let width = self.weights.nrows() - 1;
