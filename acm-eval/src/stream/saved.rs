@@ -6,7 +6,7 @@
 //! | scalers, ranges   | the training part, computed again from the data                        |
 //! | nominal model     | `nominal.json`, or the model with effects that the experiment names    |
 //! | interval          | `intervals.json`                                                       |
-//! | first elapsed time | the median step of the training part                                  |
+//! | first elapsed time | the median step of the training part; with a carried state, `windows.max_gap` |
 //!
 //! The checkpoint holds a hash over the windows that it was trained on, after scaling: data that have changed since are
 //! found out.
@@ -131,7 +131,10 @@ pub fn load(request: &Request) -> Result<Saved, EvalError> {
         labels: Some(wiring.labels()),
         factor: record.factor,
         max_gap: asked.gap(),
-        first_elapsed: opened.step(&plan.split.training)?,
+        first_elapsed: match setting.experiment.memory.is_trial() {
+            true => asked.gap(),
+            false => opened.step(&plan.split.training)?,
+        },
         state: if request.windows { StateRule::Window(asked.length) } else { StateRule::Running },
     };
     let title = manifest.title.clone();

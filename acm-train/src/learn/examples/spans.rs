@@ -12,7 +12,7 @@
 //! | symbol    | meaning                                       | shape     | unit |
 //! | --------- | --------------------------------------------- | --------- | ---- |
 //! | `inputs`  | channels, standardised; zeros in the padding  | `[B,W,C]` | –    |
-//! | `elapsed` | time since the previous sample; zero there    | `[B,W]`   | s    |
+//! | `elapsed` | time since the previous sample; zero in the padding | `[B,W]`   | s    |
 //! | `targets` | residual, standardised, of which some count   | `[B,W,O]` | –    |
 //!
 //! W is the longest span of a batch. Padding stands behind all that counts, so it changes nothing.

@@ -66,6 +66,10 @@ impl Part {
             let width = trial.actuators.ncols();
             series.slopes = slopes.columns_range(tip.start * width..tip.end * width).into_owned();
         }
+        if experiment.memory.is_trial() {
+            // A median step of the trial is not known at its start; a gap is what a start follows.
+            series.segments.iter().for_each(|segment| series.elapsed[segment.start] = experiment.windows.gap());
+        }
         if experiment.windows.elapsed == Elapsed::One {
             series.elapsed.fill(1.0);
         }
