@@ -5,8 +5,8 @@
 //! cargo run --release -p acm-train --example nothing_to_learn -- [NOTHING [LITTLE [INTERVALS]]]      20, 10 and 0 where left out
 //! ```
 //!
-//! Each set is learned from by `experiments/my-robot.toml`: six folds, two final runs, held-out trials once. What one gets is the
-//! nominal model where the verdict says that no network is worth it, else the network of the first final run. Intervals come from 18
+//! Each set is learned from as `acm-train` learns: six folds, one final run, held-out trials once. What one gets is the
+//! nominal model where the verdict says that no network is worth it, else the network of the final run. Intervals come from 18
 //! development trials, each with a noise of its own size, and are to hold 90 % of 10 further trials.
 
 mod planted;
@@ -91,7 +91,7 @@ fn one(planted: &Planted, progress: &Progress, stop: &Stop) -> Result<Outcome, B
     planted.write(&folder.path().join("data"))?;
     let file = folder.path().join("experiment.toml");
     fs::write(&file, planted::EXPERIMENT)?;
-    let (experiment, source) = config::read(&file, &["data=data".into()])?;
+    let (experiment, source) = config::read(&file, &[])?;
     let out = folder.path().join("run");
     let records = job::run(experiment, &source, &Request::new(&out, progress, stop))?;
     let verdict = verdict::of(&records.iter().collect::<Vec<_>>()).ok_or("no records")?;

@@ -191,5 +191,29 @@ unit   = "m"
 calibration = ["c1"]
 "#;
 
-/// Experiment that a user's own recordings get.
-pub const EXPERIMENT: &str = include_str!("../../../experiments/my-robot.toml");
+/// Experiment with a small network, trained long enough to overfit.
+pub const EXPERIMENT: &str = r#"
+question = "Is there anything to learn?"
+data     = "data"
+
+[inputs]
+domain_filter = "none"
+channels      = ["q1", "q2", "rate(q1)", "rate(q2)", "wind"]
+
+[windows]
+length = 5
+reach  = 5
+
+[network]
+kind  = "gru"
+units = 8
+
+[training]
+epochs        = 30
+learning_rate = 5e-3
+patience      = 10
+
+[protocol]
+cross_validation = true
+seeds            = [1]
+"#;
