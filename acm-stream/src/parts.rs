@@ -54,7 +54,7 @@ pub struct Parts {
     #[serde(default = "whole")]
     pub factor: f64,
     /// Straight path beside the network, one row for each standardised channel and a last for the constant, with a weight for each
-    /// output, SI; empty where there is none.
+    /// output, SI; empty without a path.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub straight: Vec<Vec<f64>>,
     /// Gap after which the network's state is reset, s.

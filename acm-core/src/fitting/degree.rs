@@ -10,8 +10,8 @@
 //! | `e`    | mean squared error of degree d on block b; [`simplest`] chooses by it | –     | 1           |
 //!
 //! Blocks are runs of successive samples. An actuator that rests at L values allows degrees up to L − 2, and always 1: such a degree
-//! is determined without any one of the values. Values are told apart by sixty-fourths of the actuator's range, of which most are then
-//! empty.
+//! is determined without any one of the values. Two values are distinct if an empty 64th of the actuator's range
+//! lies between them; an actuator rests if at least half of these parts are empty.
 
 use nalgebra::DMatrix;
 
@@ -23,7 +23,7 @@ use crate::polynomial::Polynomial;
 /// Highest degree that is tried: of the map that was the default before degrees were chosen.
 const HIGHEST: usize = 3;
 
-/// Parts of an actuator's range by which values are told apart.
+/// Parts of an actuator's range; an empty one separates two values.
 const BINS: usize = 64;
 
 /// Samples that are compared; of more, every k-th.
@@ -48,7 +48,7 @@ fn is_determined(q: &DMatrix<f64>, degree: usize) -> bool {
     enough && q.column_iter().all(|column| levels(column.as_slice()).is_none_or(|levels| levels >= degree + 2))
 }
 
-/// Returns the number of values that an actuator rests at; none where it moves through most of its range, or not at all.
+/// Returns the number of values that an actuator rests at; `None` if it moves through most of its range, or not at all.
 fn levels(column: &[f64]) -> Option<usize> {
     let low = column.iter().copied().fold(f64::INFINITY, f64::min);
     let span = column.iter().copied().fold(f64::NEG_INFINITY, f64::max) - low;

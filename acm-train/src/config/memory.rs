@@ -29,7 +29,7 @@ const OF_WINDOWS: [&str; 4] = ["length", "reach", "stride", "target"];
 /// Longest piece, samples.
 const MOST: usize = 1_000_000;
 
-/// How far back a network remembers; see the head of this file.
+/// How far back a network remembers: the table above.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Memory {

@@ -50,16 +50,7 @@ pub fn fit_members(
     of_run: &Path,
     observer: &mut dyn FnMut(&Epoch) -> Control,
 ) -> Result<Vec<Fitted>, LearnError> {
-    let mut all: Vec<Fitted> = vec![];
-    for member in 0..task.training.members() {
-        let task = Task { seed: seed(task.seed, member), ..task.clone() };
-        let path = checkpoint(of_run, member);
-        all.push(fit(&task, training, validation, Some(&path), observer)?);
-        if ended(&all) == Ended::Asked {
-            break;
-        }
-    }
-    Ok(all)
+    each_member(task, of_run, |task, path| fit(task, training, validation, Some(path), observer))
 }
 
 /// Fits all members of a task to all trials ([`refit`]), one after the other.
@@ -73,10 +64,19 @@ pub fn refit_members(
     of_run: &Path,
     observer: &mut dyn FnMut(&Epoch) -> Control,
 ) -> Result<Vec<Fitted>, LearnError> {
+    each_member(task, of_run, |task, path| refit(task, training, epochs, path, observer))
+}
+
+/// Calls `fit` with the task and the checkpoint of each member, up to one that was stopped.
+fn each_member(
+    task: &Task,
+    of_run: &Path,
+    mut fit: impl FnMut(&Task, &Path) -> Result<Fitted, LearnError>,
+) -> Result<Vec<Fitted>, LearnError> {
     let mut all: Vec<Fitted> = vec![];
     for member in 0..task.training.members() {
         let task = Task { seed: seed(task.seed, member), ..task.clone() };
-        all.push(refit(&task, training, epochs, &checkpoint(of_run, member), observer)?);
+        all.push(fit(&task, &checkpoint(of_run, member))?);
         if ended(&all) == Ended::Asked {
             break;
         }

@@ -33,7 +33,7 @@ pub struct Straight {
 }
 
 impl Straight {
-    /// Fits the path to the series that `training` shows one after the other, each time it is called; none where a constant is as good.
+    /// Fits the path to the series that `training` shows one after the other, each time it is called. Returns `None` if a constant is as good.
     ///
     /// # Errors
     /// What `training` says.

@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use statrs::statistics::{Data, Median};
+
 use crate::learn::Projection;
 
 use super::record::{FoldStamp, RunRecord, Split, Stage};
@@ -49,15 +51,9 @@ impl Chosen {
                 *folds.entry(fold).or_default() += *last;
             }
         }
-        let factor = median(folds.values().map(Projection::ratio).collect()).unwrap_or(1.0).clamp(0.0, 1.0);
+        let ratios: Vec<f64> = folds.values().map(Projection::ratio).collect();
+        let factor = if ratios.is_empty() { 1.0 } else { Data::new(ratios).median().clamp(0.0, 1.0) };
         let folds = records.iter().filter(|record| record.stage != Stage::Final);
         Self { epochs: folds.map(|record| record.epochs.len()).max().unwrap_or(1), factor }
     }
-}
-
-/// Returns the median; none of no values.
-fn median(mut values: Vec<f64>) -> Option<f64> {
-    values.sort_by(f64::total_cmp);
-    let count = values.len();
-    (count > 0).then(|| values[(count - 1) / 2].midpoint(values[count / 2]))
 }

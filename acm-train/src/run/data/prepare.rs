@@ -31,22 +31,6 @@ pub struct Part {
 }
 
 impl Part {
-    /// Returns the trials called `names`, with the nominal model of `pair`.
-    pub fn new(
-        names: &[String],
-        campaign: &Campaign,
-        pair: &CalibrationPair,
-        channels: &[Channel],
-        experiment: &Experiment,
-    ) -> Self {
-        let mut part = Self::default();
-        for trial in campaign.trials.iter().filter(|trial| names.contains(&trial.name)) {
-            part.push(trial, campaign.tip_columns(), pair, channels, experiment);
-        }
-        part.shuffle(channels, experiment);
-        part
-    }
-
     /// Adds a trial.
     pub fn push(
         &mut self,
